@@ -1,0 +1,41 @@
+# The core: no ROS. One library per layer; dependencies point one way only:
+#   math <- insect <- fluid, flight, wing <- coupling <- run
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+find_package(BLAS REQUIRED)
+find_package(LAPACK REQUIRED)
+find_package(OpenSSL REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(YAML_CPP REQUIRED IMPORTED_TARGET yaml-cpp)
+
+# Fails the configuration when a core source includes a ROS or message header: these lie in the default
+# include path of Debian, so the compiler alone would not object.
+function(forbid_ros layer)
+  foreach(source ${ARGN})
+    file(STRINGS ${source} bad REGEX "#include *[<\"](ros|tf2|tf2_ros|rosbag|std_msgs|geometry_msgs|sensor_msgs|nav_msgs|visualization_msgs|diagnostic_[a-z]*|tf2_msgs|monarch_flight/[A-Z][A-Za-z]*)[/.]")
+    if(bad)
+      message(FATAL_ERROR "layer ${layer} is core and must not know ROS: ${source}: ${bad}")
+    endif()
+  endforeach()
+endfunction()
+
+function(core_layer name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/${name}/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/monarch_flight/${name}/*.h src/${name}/*.h)
+  forbid_ros(${name} ${sources} ${headers})
+  add_library(monarch_${name} SHARED ${sources})
+  target_include_directories(monarch_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_link_libraries(monarch_${name} PUBLIC Eigen3::Eigen ${ARGN})
+  target_link_options(monarch_${name} PRIVATE -Wl,--no-undefined)
+endfunction()
+
+core_layer(math)
+core_layer(insect monarch_math)
+core_layer(fluid monarch_insect)
+target_link_libraries(monarch_fluid PRIVATE lapacke LAPACK::LAPACK BLAS::BLAS)
+core_layer(flight monarch_insect)
+core_layer(wing monarch_insect)
+core_layer(coupling monarch_insect monarch_fluid monarch_flight monarch_wing)
+core_layer(run monarch_coupling)
+target_link_libraries(monarch_run PRIVATE PkgConfig::YAML_CPP OpenSSL::Crypto nlohmann_json::nlohmann_json)
+set(CORE_LAYERS monarch_math monarch_insect monarch_fluid monarch_flight monarch_wing monarch_coupling monarch_run)

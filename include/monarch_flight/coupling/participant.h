@@ -1,0 +1,67 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "monarch_flight/fluid/fluid_model.h"
+#include "monarch_flight/insect/state.h"
+
+namespace monarch_flight {
+
+/// The three solvers, in the order in which a sub-iteration calls them.
+enum class Role : std::uint8_t { kFluid = 0, kFlight = 1, kWing = 2 };
+const char* roleName(Role role);
+
+/// START: take the initial interface. ITERATE: compute from (committed state, request), keep nothing
+/// that a later ITERATE could see. COMMIT: keep the last answered ITERATE of this step. ABORT: end.
+enum class Phase : std::uint8_t { kStart = 0, kIterate = 1, kCommit = 2, kAbort = 3 };
+const char* phaseName(Phase phase);
+
+/// Identifies a request and its reply. Never a time, never a sequence number of the transport.
+struct ExchangeKey {
+  std::uint64_t run = 0;
+  std::uint32_t step = 0;       ///< the time level n+1 being computed; 0 for START
+  std::uint32_t iteration = 0;  ///< sub-iteration k, from 0
+  Phase phase = Phase::kStart;
+  bool operator==(const ExchangeKey& o) const {
+    return run == o.run && step == o.step && iteration == o.iteration && phase == o.phase;
+  }
+  bool operator!=(const ExchangeKey& o) const { return !(*this == o); }
+};
+
+struct Request {
+  ExchangeKey key;
+  double t = 0.0;        ///< time of level `step` [s]
+  Interface interface;   ///< guess of level `step` (START: the initial state)
+  Loads loads;           ///< of this sub-iteration; zero in the request to the fluid
+  bool want_fields = false;  ///< COMMIT to the fluid: answer with surface pressure and vortices
+};
+
+struct Reply {
+  ExchangeKey key;
+  Interface interface;   ///< flight fills body, wing fills theta_R, the rest is as in the request
+  Loads loads;           ///< filled by the fluid
+  FluidReport report;    ///< filled by the fluid
+  double wall_s = 0.0;   ///< time spent computing
+  std::string error;     ///< empty: good; else why the participant cannot go on
+  SurfacePressure surface;           ///< only when asked for
+  std::vector<VortexPoint> vortices; ///< only when asked for
+};
+
+/// One solver as the coordinator sees it. In process: direct call; over ROS: a lockstep exchange.
+class Participant {
+ public:
+  virtual ~Participant() = default;
+  /// Answers `request`. In-process participants report failures in Reply::error; transports throw
+  /// ExchangeError naming participant, step, iteration and phase when no answer comes in time.
+  virtual Reply exchange(const Request& request) = 0;
+};
+
+class ExchangeError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace monarch_flight

@@ -1,0 +1,67 @@
+#pragma once
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "monarch_flight/insect/state.h"
+
+namespace monarch_flight {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Pressure on the wing's surface, for pictures: a structured set of flat rectangles in wing axes.
+struct SurfacePressure {
+  struct Facet {
+    float x, y, dx, dy;        ///< centre and size, wing axes [m]
+    float p_upper, p_lower;    ///< gauge pressure on the dorsal (-z) and ventral (+z) side [Pa]
+  };
+  std::vector<Facet> facets;
+};
+
+/// A point of a vortex (Q above a threshold), for pictures.
+struct VortexPoint {
+  float x, y, z;     ///< wing axes [m]
+  float q;           ///< second invariant Q of the velocity gradient [1/s^2]
+  float omega_y;     ///< spanwise vorticity, wing axes [1/s]
+};
+
+/// What a flow model says of itself after an evaluation.
+struct FluidReport {
+  double courant = 0.0;           ///< largest in-plane Courant number of the step (0: not applicable)
+  double divergence = 0.0;        ///< largest relative divergence after projection (0: not applicable)
+};
+
+/// The one contract of all flow models. A model owns a committed state at time level n.
+/// `evaluate` is a pure function of (committed state, motion): it may be called any number of times with
+/// different or equal motions and changes nothing that a later evaluate could see.
+class FluidModel {
+ public:
+  virtual ~FluidModel() = default;
+  /// Starts from air at rest (or the uniform wind) with the wing in this motion at time level 0.
+  virtual void start(const WingMotion& motion, double dt) = 0;
+  /// Loads at level n+1 if the wing moves to `next`. Throws NumericalError on a non-finite result.
+  virtual Loads evaluate(const WingMotion& next) = 0;
+  /// Makes the last evaluated step the committed state. Precondition: evaluate was called since.
+  virtual void commit() = 0;
+  /// Exact state as bytes and back; bitwise the same evaluations follow.
+  virtual std::vector<char> save() const = 0;
+  virtual void restore(const std::vector<char>& bytes) = 0;
+
+  /// Added mass about the wing root, wing axes, SI: force and moment on the air = M (a_W; alpha_W).
+  virtual Matrix6d addedMass() const = 0;
+  virtual FluidReport report() const = 0;
+  virtual long cells() const = 0;  ///< 0 when there is no grid
+  virtual SurfacePressure surfacePressure() const = 0;
+  /// At most `limit` points with Q > q_threshold; empty where there is no field.
+  virtual std::vector<VortexPoint> vortices(double q_threshold, int limit) const = 0;
+};
+
+/// Uniform air and gravity.
+struct Air {
+  double rho = 1.225;                               ///< [kg/m^3]
+  double mu = 1.8e-5;                               ///< dynamic viscosity [Pa s]
+  Eigen::Vector3d wind_I = Eigen::Vector3d::Zero(); ///< uniform wind, NED [m/s]
+};
+
+}  // namespace monarch_flight

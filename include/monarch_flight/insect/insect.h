@@ -1,0 +1,57 @@
+#pragma once
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "monarch_flight/insect/planform.h"
+#include "monarch_flight/insect/state.h"
+
+namespace monarch_flight {
+
+/// A rigid appendage on a joint of the body.
+struct Appendage {
+  double m = 0.0;                                  ///< mass [kg]
+  Eigen::Vector3d nu = Eigen::Vector3d::Zero();    ///< mass centre from the joint, own axes [m]
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();     ///< inertia about the joint, own axes [kg m^2]
+  Eigen::Vector3d mu = Eigen::Vector3d::Zero();    ///< joint in body axes F_B, from the body's mass centre [m]
+};
+
+/// Constant model of the insect (or of a bare wing: massless body and abdomen, one wing).
+struct Insect {
+  std::string name;
+  bool bare_wing = false;  ///< true: one wing, no body or abdomen; nothing but wing pitch may be free
+  double m_B = 0.0;        ///< body (thorax and head) [kg]
+  Eigen::Matrix3d J_B = Eigen::Matrix3d::Zero();  ///< about the body's mass centre [kg m^2]
+  double body_length = 0.0, body_width = 0.0;        ///< cylinder, for pictures and inertia [m]
+  double abdomen_length = 0.0, abdomen_width = 0.0;  ///< [m]
+  Appendage right, left, abdomen;
+  double beta = 0.0;     ///< stroke plane angle [rad]
+  double kappa = 0.0;    ///< hinge stiffness kappa_T [N m/rad]
+  double theta_0 = 0.0;  ///< rest angle of the hinge [rad]
+  Planform planform;     ///< right wing, wing axes
+
+  double totalMass() const { return m_B + right.m + left.m + abdomen.m; }
+  int wings() const { return bare_wing ? 1 : 2; }
+  /// Every fault at once, each as "insect/key = value unit: must be ... ; remedy".
+  std::vector<std::string> problems() const;
+};
+
+/// Flat plate of uniform areal density: nu, J from the planform's moments. `mu` as given.
+Appendage plateWing(const Planform& planform, double mass, const Eigen::Vector3d& mu);
+/// Mirror image across the body's x-z plane.
+Appendage mirrored(const Appendage& right);
+
+/// Q_R (model.md section 1): right wing axes to body axes.
+Eigen::Matrix3d wingAttitude(double beta, const JointAngles& angles);
+/// Q_L: left wing axes to body axes, mirror image of Q_R.
+Eigen::Matrix3d leftWingAttitude(double beta, const JointAngles& angles);
+/// Q_A: abdomen axes to body axes.
+Eigen::Matrix3d abdomenAttitude(const JointAngles& angles);
+/// Omega_R, relative to the body, wing axes [rad/s], and its component-wise derivative [rad/s^2].
+Eigen::Vector3d wingRate(const JointAngles& angles);
+Eigen::Vector3d wingRateDerivative(const JointAngles& angles);
+
+/// Absolute motion of the right wing's axes for a body state and joint angles.
+WingMotion rightWingMotion(const Insect& insect, const BodyState& body, const JointAngles& angles);
+
+}  // namespace monarch_flight

@@ -1,0 +1,21 @@
+#pragma once
+#include <Eigen/Dense>
+
+namespace monarch_flight {
+
+/// Skew matrix with hat(a) b = a x b.
+Eigen::Matrix3d hat(const Eigen::Vector3d& a);
+/// Inverse of hat.
+Eigen::Vector3d vee(const Eigen::Matrix3d& A);
+/// Rotation by |a| about a/|a| (Rodrigues), accurate to rounding for every |a|, 0 included.
+Eigen::Matrix3d expSO3(const Eigen::Vector3d& a);
+/// Rotation vector of R with |log| <= pi; accurate near 0 and near pi.
+Eigen::Vector3d logSO3(const Eigen::Matrix3d& R);
+/// exp(angle e_i^), i = 1, 2, 3.
+Eigen::Matrix3d rotationX(double angle);
+Eigen::Matrix3d rotationY(double angle);
+Eigen::Matrix3d rotationZ(double angle);
+/// Closest rotation matrix (removes drift after many products).
+Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& R);
+
+}  // namespace monarch_flight

@@ -1,0 +1,66 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "monarch_flight/coupling/settings.h"
+#include "monarch_flight/fluid/fluid_model.h"
+#include "monarch_flight/fluid/grid_settings.h"
+#include "monarch_flight/insect/insect.h"
+#include "monarch_flight/insect/prescribed_motion.h"
+
+namespace monarch_flight {
+
+enum class FluidKind { kNavierStokes, kQuasiSteady };
+/// Coefficients of the blade-element model (model.md section 4).
+enum class BladeElementVariant { kSaneDickinson, kWhitneyWood };
+
+/// Time as integer steps: t = t_start + step * dt.
+struct TimeGrid {
+  double period = 0.0;           ///< flapping period, or 0 for a motion without one [s]
+  double t_start = 0.0;          ///< time of step 0 [s]
+  double dt = 0.0;               ///< [s]
+  std::uint32_t steps = 0;       ///< steps of the whole run
+  double time(std::uint32_t step) const { return t_start + step * dt; }
+  /// Steps per flap, or 0 without a period.
+  double stepsPerFlap() const { return period > 0 ? period / dt : 0.0; }
+};
+
+struct OutputSettings {
+  bool record = true;            ///< write flight.bag
+  int surface_every = 10;        ///< steps between wing-pressure pictures (0: never)
+  int vortices_every = 50;       ///< steps between vortex pictures (0: never)
+};
+
+/// Everything a run needs, checked and complete. Made by loadCase; never half-valid.
+struct Case {
+  std::string name;
+  Insect insect{"", true, 0, {}, 0, 0, 0, 0, {}, {}, {}, 0, 0, 0, Planform::rectangle(1, 1, 0)};
+  Air air;
+  double gravity = 9.81;         ///< [m/s^2], along +z of NED
+  FluidKind fluid = FluidKind::kNavierStokes;
+  BladeElementVariant blade_element = BladeElementVariant::kSaneDickinson;
+  GridSettings grid;
+  /// Motion of everything that is prescribed, and of the free coordinates during the prescribed start
+  /// (explicit initial values of free coordinates are already in it: q0 + qd0 t).
+  std::shared_ptr<const PrescribedMotion> motion;
+  FreeCoordinates free;
+  TimeGrid time;
+  CouplingSettings coupling;
+  OutputSettings output;
+  double watchdog_s = 60.0;      ///< wall-clock limit of one exchange with a node [s]
+  std::string resolved_yaml;     ///< the case file with every key written out
+  std::string sha256;            ///< of resolved_yaml, hex: what the handshake compares
+};
+
+/// `overrides` from the command line: fluid, grid, flaps, steps_per_flap, record (each a YAML scalar).
+using CaseOverrides = std::map<std::string, std::string>;
+
+/// Reads a case by name (config/cases/<name>.yaml under `config_dir`) or by path; applies overrides;
+/// resolves presets and tables relative to the case file; throws InputError with every fault at once.
+Case loadCase(const std::string& name_or_path, const CaseOverrides& overrides,
+              const std::string& config_dir);
+
+}  // namespace monarch_flight

@@ -1,0 +1,26 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/run/case.h"
+
+namespace monarch_flight {
+
+/// The flow model that the case names, started by the participant's START request.
+std::unique_ptr<FluidModel> makeFluid(const Case& c);
+/// The in-process participant for a role; the ROS nodes wrap exactly these.
+std::unique_ptr<Participant> makeParticipant(Role role, const Case& c);
+
+/// Result of a run as written to summary.json.
+struct RunResult {
+  bool complete = false;
+  std::string failure;  ///< empty when complete
+};
+
+/// Runs the coupled loop of the whole case over three participants and feeds the sinks.
+/// `stop` is polled between sub-iterations (SIGINT). Never throws for a failed run: see RunResult.
+RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
+                  Participant& wing, const std::vector<StepSink*>& sinks, const bool& stop);
+
+}  // namespace monarch_flight
