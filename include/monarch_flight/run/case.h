@@ -8,14 +8,13 @@
 #include "monarch_flight/coupling/settings.h"
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/fluid/grid_settings.h"
+#include "monarch_flight/fluid/quasi_steady.h"
 #include "monarch_flight/insect/insect.h"
 #include "monarch_flight/insect/prescribed_motion.h"
 
 namespace monarch_flight {
 
 enum class FluidKind { kNavierStokes, kQuasiSteady };
-/// Coefficients of the blade-element model (model.md section 4).
-enum class BladeElementVariant { kSaneDickinson, kWhitneyWood };
 
 /// Time as integer steps: t = t_start + step * dt.
 struct TimeGrid {

@@ -1,0 +1,13 @@
+#pragma once
+#include <memory>
+
+#include "monarch_flight/fluid/fluid_model.h"
+#include "monarch_flight/fluid/grid.h"
+
+namespace monarch_flight {
+
+/// Three-dimensional incompressible Navier-Stokes around one zero-thickness wing (docs/fluid.md).
+std::unique_ptr<FluidModel> makeNavierStokes(const Planform& planform, const Air& air,
+                                             const GridSettings& settings);
+
+}  // namespace monarch_flight

@@ -1,0 +1,40 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "monarch_flight/fluid/grid.h"
+
+namespace monarch_flight {
+
+/// Direct solver of the Poisson equation on a Grid, the wing's faces carrying no flux.
+///
+/// Finds p with, for every cell c:  sum over its faces f of (area_f / gap_f) (p_neighbour - p_c) = b_c ,
+/// where faces of the wing contribute nothing, outer faces contribute nothing (grid.open == false) or
+/// (area / half width) (0 - p_c) (grid.open == true). b is integrated over the cell. With
+/// grid.open == false b must sum to zero up to rounding (the residual mean is removed) and p has zero
+/// volume mean.
+///
+/// Method: fast diagonalisation in x and y (generalised eigenvectors), tridiagonal elimination in z from
+/// both ends to the wing plane, dense capacitance matrix on the wing's faces between elimination and
+/// back-substitution: one forward and one inverse transform a solve.
+class PressureSolver {
+ public:
+  explicit PressureSolver(const Grid& grid);
+  ~PressureSolver();
+  PressureSolver(const PressureSolver&) = delete;
+  PressureSolver& operator=(const PressureSolver&) = delete;
+
+  /// In place: b in, p out; nx*ny*nz doubles, x fastest, 64-byte aligned. Allocates nothing.
+  void solve(double* b_to_p) const;
+  /// y = A p, the operator above, for checks (any p).
+  void apply(const double* p, double* y) const;
+
+  int wingFaces() const;      ///< n_w
+  double setupSeconds() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace monarch_flight
