@@ -1,0 +1,31 @@
+#include "monarch_flight/coupling/participant.h"
+
+namespace monarch_flight {
+
+const char* roleName(Role role) {
+  switch (role) {
+    case Role::kFluid:
+      return "fluid";
+    case Role::kFlight:
+      return "flight";
+    case Role::kWing:
+      return "wing";
+  }
+  return "unknown role";
+}
+
+const char* phaseName(Phase phase) {
+  switch (phase) {
+    case Phase::kStart:
+      return "START";
+    case Phase::kIterate:
+      return "ITERATE";
+    case Phase::kCommit:
+      return "COMMIT";
+    case Phase::kAbort:
+      return "ABORT";
+  }
+  return "unknown phase";
+}
+
+}  // namespace monarch_flight
