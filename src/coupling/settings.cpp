@@ -18,14 +18,6 @@ bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 }  // namespace
 
-Coordinate Newmark::advance(const Coordinate& n, double qdd) const {
-  Coordinate next;
-  next.q = n.q + dt * n.qd + dt * dt * ((0.5 - beta) * n.qdd + beta * qdd);
-  next.qd = n.qd + dt * ((1.0 - gamma) * n.qdd + gamma * qdd);
-  next.qdd = qdd;
-  return next;
-}
-
 std::vector<std::string> CouplingSettings::problems() const {
   std::vector<std::string> faults;
   if (!(positive(omega_initial) && omega_initial <= 1.0)) {

@@ -4,24 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "monarch_flight/fluid/fluid_model.h"
+#include "monarch_flight/insect/newmark.h"
 #include "monarch_flight/insect/state.h"
 
 namespace monarch_flight {
-
-/// Which coordinates the equations of motion move; the others follow the prescribed motion.
-struct FreeCoordinates {
-  bool x = false, z = false, pitch = false, wing_pitch = false;
-  int count() const { return int(x) + int(z) + int(pitch) + int(wing_pitch); }
-};
-
-/// Newmark-beta (average acceleration): q_{n+1} = q_n + dt qd_n + dt^2 ((1/2 - beta) qdd_n + beta qdd_{n+1}).
-struct Newmark {
-  double beta = 0.25;
-  double gamma = 0.5;
-  double dt = 0.0;  ///< [s]
-  /// The coordinate at n+1 for the acceleration qdd there.
-  Coordinate advance(const Coordinate& n, double qdd) const;
-};
 
 enum class Relaxation { kConstant, kAitken };
 
