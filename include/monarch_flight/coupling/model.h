@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "monarch_flight/insect/insect.h"
+#include "monarch_flight/insect/newmark.h"
+#include "monarch_flight/insect/prescribed_motion.h"
+
+namespace monarch_flight {
+
+/// Constant model that the three participants and the coordinator share. Built as
+/// `CoupledModel model{insect}` and then filled; all of them keep a copy.
+struct CoupledModel {
+  Insect insect;
+  /// Of everything that is prescribed, and of the free coordinates during the prescribed start.
+  std::shared_ptr<const PrescribedMotion> motion = nullptr;
+  FreeCoordinates free = {};
+  Newmark newmark = {};     ///< with the time step of the whole run
+  double gravity = 9.81;    ///< along +z of NED [m/s^2]
+  double t_start = 0.0;     ///< time of step 0 [s]
+  std::uint32_t steps = 0;  ///< of the whole run
+  int surface_every = 0;    ///< committed steps between pictures of the wing's pressure (0: never)
+  int vortices_every = 0;   ///< committed steps between pictures of the vortices (0: never)
+  double q_threshold = 0.0;  ///< vortices are where Q exceeds it [1/s^2]
+  int vortex_limit = 20000;  ///< points at most in a picture of vortices
+
+  double time(std::uint32_t step) const { return t_start + step * newmark.dt; }
+  /// Joint angles at time t [s], the wings' pitch taken from the interface.
+  JointAngles angles(double t, const Coordinate& theta_R) const;
+  /// Every coordinate as the prescribed motion has it.
+  Interface prescribed(double t) const;
+  /// Every fault at once (no motion, no time step, a bare wing with a free body, ...).
+  std::vector<std::string> problems() const;
+};
+
+}  // namespace monarch_flight
