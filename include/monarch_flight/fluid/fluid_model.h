@@ -30,6 +30,10 @@ struct VortexPoint {
 struct FluidReport {
   double courant = 0.0;           ///< largest in-plane Courant number of the step (0: not applicable)
   double divergence = 0.0;        ///< largest relative divergence after projection (0: not applicable)
+  /// Constants of the run for summary.json. The fluid participant fills them in its answer to START (from
+  /// FluidModel::cells and addedMass) and the coordinator hands that report on with step 0; later they are 0.
+  long cells = 0;
+  Matrix6d added_mass = Matrix6d::Zero();
 };
 
 /// The one contract of all flow models. A model owns a committed state at time level n.
