@@ -33,6 +33,7 @@ class FlightSolver {
   const MultibodyDynamics& dynamics() const { return dynamics_; }
 
  private:
+  double beta_;
   MultibodyDynamics dynamics_;
   FreeCoordinates free_;
   Newmark newmark_;
