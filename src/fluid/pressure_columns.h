@@ -1,0 +1,53 @@
+#pragma once
+#include <Eigen/Dense>
+#include <vector>
+
+#include "fluid/pressure_transform.h"
+
+namespace monarch_flight {
+
+/// The tridiagonal systems in z, one per mode (a, b) of the plane:
+///   (Kz + (lambda_a + lambda_b) Wz) p = r,   Kz: face conductances 1 / gap, Wz = diag(width),
+/// eliminated from both ends towards the two cells next to the wing's plane (below: k_wing - 1,
+/// above: k_wing), where what is left is  [ e_d + l, -l ; -l, e_u + l ] (p_d; p_u) = (r_d; r_u),
+/// l = 1 / gap[k_wing]. e_d, e_u >= 0 are what the half columns conduct to elsewhere; they are
+/// built without subtraction. With closed outer faces the constant mode has e_d = e_u = 0: its
+/// system is singular, r_d + r_u = 0 after removeMean, and the solution with p_d + p_u = 0 is
+/// taken. All arrays over modes ("mode planes") are nx x ny: all modes of x by all modes of y.
+class PressureColumns {
+ public:
+  PressureColumns(const Grid& grid, const AxisModes& x, const AxisModes& y,
+                  std::vector<SpectrumBlock> blocks);
+  /// 1 - l g per mode, g: jump p_d - p_u answering a unit source below and sink above.
+  Eigen::MatrixXd jumpComplement() const;
+  double wingConductance() const { return link_[k_wing_]; }  ///< l [1/m]
+
+  /// The constant mode's r made to sum to zero (a multiple of width taken off). Closed outer faces
+  /// only.
+  void removeMean(double* spectrum) const;
+  /// Both eliminations, up to the wing's plane.
+  void eliminate(double* spectrum) const;
+  /// jump = p_d - p_u per mode as the eliminated system stands.
+  void jump(const double* spectrum, double* jump) const;
+  /// r_d += source, r_u -= source.
+  void addDipole(const double* source, double* spectrum) const;
+  /// Back-substitution from the wing's plane outwards.
+  void substitute(double* spectrum) const;
+  /// The constant mode shifted to zero volume mean. Closed outer faces only.
+  void centre(double* spectrum) const;
+
+ private:
+  std::ptrdiff_t planeIndex(const SpectrumBlock& q, int b) const {
+    return q.first_x + static_cast<std::ptrdiff_t>(q.first_y + b) * nx_;
+  }
+  void factor(const SpectrumBlock& q, int b, const Eigen::ArrayXd& lambda);
+
+  int nx_, ny_, nz_, k_wing_;
+  std::vector<SpectrumBlock> blocks_;
+  Eigen::ArrayXd width_, link_;  ///< cells; faces (1 / gap, 0 at a closed end)
+  Eigen::ArrayXd reciprocal_;    ///< of the pivots, laid out as the spectrum
+  /// Inverse of the 2 x 2 systems, and 1 - l g, as mode planes.
+  Eigen::ArrayXd below_, cross_, above_, complement_;
+};
+
+}  // namespace monarch_flight

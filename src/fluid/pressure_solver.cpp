@@ -1,0 +1,98 @@
+#include "monarch_flight/fluid/pressure_solver.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "fluid/blas.h"
+#include "fluid/pressure_capacitance.h"
+#include "fluid/pressure_columns.h"
+#include "fluid/pressure_modes.h"
+#include "fluid/pressure_transform.h"
+
+namespace monarch_flight {
+
+struct PressureSolver::Impl {
+  explicit Impl(const Grid& g)
+      : grid(g),
+        x(g.x, g.open),
+        y(g.y, g.open),
+        transform(x, y, g.z.n()),
+        columns(g, x, y, transform.blocks()),
+        wing(g, x, y, columns.jumpComplement()),
+        spectrum(Eigen::VectorXd::Zero(g.cells())),
+        wing_plane(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())) {}
+
+  const Grid grid;
+  const AxisModes x, y;
+  const PlaneTransform transform;
+  const PressureColumns columns;
+  const WingCapacitance wing;
+  Eigen::VectorXd spectrum, wing_plane;  // scratch
+  double setup_seconds = 0.0;
+};
+
+PressureSolver::PressureSolver(const Grid& grid) {
+  const auto begin = std::chrono::steady_clock::now();
+  useOneBlasThread();
+  impl_ = std::make_unique<Impl>(grid);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  impl_->setup_seconds = spent.count();
+}
+
+PressureSolver::~PressureSolver() = default;
+
+// 1. modes of x and y; 2. z from both ends to the wing's plane; 3. the wing's answer to the jump
+// there; 4. z back outwards; 5. modes to cells.
+void PressureSolver::solve(double* b_to_p) const {
+  double* spectrum = impl_->spectrum.data();
+  double* wing_plane = impl_->wing_plane.data();
+  impl_->transform.forwardNegative(b_to_p, spectrum);
+  if (!impl_->grid.open) impl_->columns.removeMean(spectrum);
+  impl_->columns.eliminate(spectrum);
+  if (wingFaces() > 0) {
+    impl_->columns.jump(spectrum, wing_plane);
+    impl_->wing.answer(wing_plane);
+    impl_->columns.addDipole(wing_plane, spectrum);
+  }
+  impl_->columns.substitute(spectrum);
+  if (!impl_->grid.open) impl_->columns.centre(spectrum);
+  impl_->transform.inverse(spectrum, b_to_p);
+}
+
+void PressureSolver::apply(const double* p, double* y) const {
+  const Grid& g = impl_->grid;
+  const int nx = g.x.n(), ny = g.y.n(), nz = g.z.n();
+  const std::ptrdiff_t row = nx, plane = static_cast<std::ptrdiff_t>(nx) * ny;
+  std::fill(y, y + plane * nz, 0.0);
+  // Flux from cell c - step to cell c through the face in front of c, n cells along the line.
+  auto sweep = [&](std::ptrdiff_t c, std::ptrdiff_t step, const Axis& axis, double area) {
+    if (g.open) y[c] -= area / axis.gap.front() * p[c];
+    for (int i = 1; i < axis.n(); ++i) {
+      c += step;
+      const double flux = area / axis.gap[i] * (p[c - step] - p[c]);
+      y[c] += flux;
+      y[c - step] -= flux;
+    }
+    if (g.open) y[c] -= area / axis.gap.back() * p[c];
+  };
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) sweep(k * plane + j * row, 1, g.x, g.y.width[j] * g.z.width[k]);
+    for (int i = 0; i < nx; ++i) sweep(k * plane + i, row, g.y, g.x.width[i] * g.z.width[k]);
+  }
+  for (int j = 0; j < ny; ++j) {
+    for (int i = 0; i < nx; ++i) {
+      const double area = g.x.width[i] * g.y.width[j];
+      sweep(j * row + i, plane, g.z, area);
+      if (!g.isWing(i, j)) continue;
+      const std::ptrdiff_t up = g.k_wing * plane + j * row + i;
+      const double flux = area / g.z.gap[g.k_wing] * (p[up - plane] - p[up]);
+      y[up] -= flux;
+      y[up - plane] += flux;
+    }
+  }
+}
+
+int PressureSolver::wingFaces() const { return impl_->wing.faces(); }
+double PressureSolver::setupSeconds() const { return impl_->setup_seconds; }
+
+}  // namespace monarch_flight
