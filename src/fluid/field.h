@@ -1,0 +1,58 @@
+#pragma once
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "monarch_flight/fluid/grid.h"
+
+namespace monarch_flight {
+
+/// Allocator for vectors whose first element lies on a 64-byte boundary.
+template <class T>
+struct Aligned64 {
+  using value_type = T;
+  Aligned64() = default;
+  template <class U>
+  Aligned64(const Aligned64<U>&) {}
+  T* allocate(std::size_t n) {
+    const std::size_t bytes = (n * sizeof(T) + 63) / 64 * 64;
+    if (void* p = std::aligned_alloc(64, bytes)) return static_cast<T*>(p);
+    throw std::bad_alloc();
+  }
+  void deallocate(T* p, std::size_t) { std::free(p); }
+  bool operator==(const Aligned64&) const { return true; }
+  bool operator!=(const Aligned64&) const { return false; }
+};
+using Array = std::vector<double, Aligned64<double>>;
+
+/// Common storage layout of all staggered fields: x fastest, one layer of ghosts, rows padded so that
+/// i = 0 is aligned. The face (i, j, k) of a component is the lower face of the cell (i, j, k).
+struct Layout {
+  int nx, ny, nz;
+  std::ptrdiff_t sy, sz;  ///< strides of j and k
+  explicit Layout(const Grid& g)
+      : nx(g.x.n()), ny(g.y.n()), nz(g.z.n()), sy((nx + 9 + 7) / 8 * 8), sz(sy * (ny + 3)) {}
+  std::ptrdiff_t at(int i, int j, int k) const { return (k + 1) * sz + (j + 1) * sy + i + 8; }
+  std::size_t size() const { return static_cast<std::size_t>(sz) * (nz + 3); }
+  std::ptrdiff_t stride(int direction) const { return direction == 0 ? 1 : direction == 1 ? sy : sz; }
+  int n(int direction) const { return direction == 0 ? nx : direction == 1 ? ny : nz; }
+};
+
+/// A staggered velocity: component c lives on the faces normal to direction c.
+struct Velocity {
+  Array c[3];
+  explicit Velocity(const Layout& l) {
+    for (auto& a : c) a.assign(l.size(), 0.0);
+  }
+};
+
+/// A function of the wing's plane that is affine in x and y: the velocity of the wall, for every level.
+struct WallVelocity {
+  double c0[3] = {0, 0, 0}, cx[3] = {0, 0, 0}, cy[3] = {0, 0, 0};
+  double at(int component, double x, double y) const {
+    return c0[component] + cx[component] * x + cy[component] * y;
+  }
+};
+
+}  // namespace monarch_flight

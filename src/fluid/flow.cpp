@@ -1,0 +1,210 @@
+#include "fluid/flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "fluid/projection.h"
+#include "fluid/wing_loads.h"
+#include "monarch_flight/fluid/navier_stokes.h"
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/math/rotation.h"
+
+namespace monarch_flight {
+
+NavierStokes::NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit)
+    : grid_(std::move(grid)),
+      layout_(grid_),
+      air_(air),
+      reference_length_(reference_length),
+      courant_limit_(courant_limit),
+      pressure_(grid_),
+      momentum_(grid_, layout_),
+      vn_(layout_),
+      vm_(layout_),
+      p_(layout_.size(), 0.0),
+      convecting_(layout_),
+      v_star_(layout_),
+      phi_(static_cast<std::size_t>(grid_.cells()), 0.0) {
+  added_mass_ = computeAddedMass();
+}
+
+Matrix6d NavierStokes::computeAddedMass() {
+  Matrix6d m = Matrix6d::Zero();
+  for (int column : {2, 3, 4}) {  // only motion normal to the wing moves the air without friction
+    GridVelocity unit;
+    (column == 2 ? unit.V.z() : column == 3 ? unit.omega.x() : unit.omega.y()) = 1;
+    const WallVelocity wall = wallVelocity(unit);
+    fillWing(grid_, layout_, wall, v_star_);
+    netOutflow(grid_, layout_, v_star_, air_.rho, phi_.data());
+    pressure_.solve(phi_.data());
+    Loads loads;
+    pressureLoads(grid_, WingPressure(grid_, layout_, nullptr, phi_.data()), air_.rho, wall, loads);
+    m.col(column) << -loads.force_pressure, -loads.moment_pressure;
+  }
+  fillWing(grid_, layout_, WallVelocity{}, v_star_);
+  return m;
+}
+
+void NavierStokes::start(const WingMotion& motion, double dt) {
+  dt_ = dt;
+  steps_ = 0;
+  prepared_ = evaluated_ = false;
+  for (int c = 0; c < 3; ++c) std::fill(vn_.c[c].begin(), vn_.c[c].end(), 0.0);
+  std::fill(p_.begin(), p_.end(), 0.0);
+  level_n_.frame = motion.R_IW;
+  level_n_.grid = gridVelocity(motion, air_.wind_I);
+  level_n_.wall = wallVelocity(level_n_.grid);
+  level_m_ = level_n_;
+  // Level -1 by the motion's own rates, so that the first extrapolation is of second order too.
+  const Eigen::Vector3d V_dot = motion.a_W - motion.omega_W.cross(motion.v_W);
+  level_m_.grid.V -= dt * V_dot;
+  level_m_.grid.omega -= dt * motion.alpha_W;
+  potentialStart();
+  vm_ = vn_;
+}
+
+/// The wing is set in motion at once: the air takes up the potential flow of its normal velocity.
+void NavierStokes::potentialStart() {
+  fillWing(grid_, layout_, level_n_.wall, vn_);
+  netOutflow(grid_, layout_, vn_, 1.0, phi_.data());
+  pressure_.solve(phi_.data());
+  subtractGradient(grid_, layout_, phi_.data(), 1.0, vn_);
+}
+
+void NavierStokes::setUniformStream(const Eigen::Vector3d& u_I) {
+  stream_I_ = u_I;
+  const Eigen::Vector3d u = level_n_.frame.transpose() * u_I;
+  for (int c = 0; c < 3; ++c) {
+    std::fill(vn_.c[c].begin(), vn_.c[c].end(), u[c]);
+    std::fill(vm_.c[c].begin(), vm_.c[c].end(), u[c]);
+  }
+}
+
+void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame) {
+  const Eigen::Matrix3d Q = frame.transpose() * level.frame;
+  rotateField(layout_, Q, v, v_star_);
+  std::swap(v, v_star_);
+  level.frame = frame;
+  level.wall = rotated(level.wall, Q);
+  fillOuter(grid_, layout_, frame.transpose() * stream_I_, v);
+  fillWing(grid_, layout_, level.wall, v);
+}
+
+void NavierStokes::convectingField(const GridVelocity& g) {
+  const double extrapolation = step_.second_order ? 1.0 : 0.0;
+  for (int c = 0; c < 3; ++c) {
+    for (int k = 0; k < layout_.nz + (c == 2); ++k) {
+      const double z = c == 2 ? grid_.z.face[k] : grid_.z.centre[k];
+      for (int j = 0; j < layout_.ny + (c == 1); ++j) {
+        const double y = c == 1 ? grid_.y.face[j] : grid_.y.centre[j];
+        const std::ptrdiff_t row = layout_.at(0, j, k);
+        const double* __restrict a = vn_.c[c].data() + row;
+        const double* __restrict b = vm_.c[c].data() + row;
+        const double* __restrict x = (c == 0 ? grid_.x.face : grid_.x.centre).data();
+        double* __restrict o = convecting_.c[c].data() + row;
+        const double g0 = g.at(c, 0, y, z), gx = g.at(c, 1, y, z) - g0;
+        const int n = layout_.nx + (c == 0);
+        for (int i = 0; i < n; ++i) o[i] = a[i] + extrapolation * (a[i] - b[i]) - (g0 + gx * x[i]);
+      }
+    }
+  }
+  fillWing(grid_, layout_, WallVelocity{}, convecting_);  // no air through the wing
+}
+
+/// Largest in-plane Courant number over the wing and half a reference length above and below it.
+double NavierStokes::courant() const {
+  double worst = 0;
+  for (int k = 0; k < layout_.nz; ++k) {
+    if (std::abs(grid_.z.centre[k]) > 0.5 * reference_length_) continue;
+    for (int j = 0; j < layout_.ny; ++j) {
+      for (int i = 0; i < layout_.nx; ++i) {
+        if (!grid_.isWing(i, j)) continue;
+        const std::ptrdiff_t q = layout_.at(i, j, k);
+        const double cx = std::max(std::abs(convecting_.c[0][q]), std::abs(convecting_.c[0][q + 1]));
+        const double cy = std::max(std::abs(convecting_.c[1][q]), std::abs(convecting_.c[1][q + layout_.sy]));
+        worst = std::max({worst, cx / grid_.x.width[i], cy / grid_.y.width[j]});
+      }
+    }
+  }
+  return worst * dt_;
+}
+
+/// What a step does before any guess of the interface: (1) predict the grid's motion, (2) turn both old
+/// levels into the predicted axes (this is the Coriolis term, exactly), (3) freeze the convecting field,
+/// (4) all of the momentum step that does not see the wall's new velocity.
+void NavierStokes::prepareStep() {
+  const GridVelocity& n = level_n_.grid;
+  const GridVelocity& m = level_m_.grid;
+  if (!prepared_) {
+    const Eigen::Vector3d omega_mid = 1.5 * n.omega - 0.5 * m.omega;
+    predicted_frame_ = level_n_.frame * expSO3(dt_ * omega_mid);
+    turnLevel(vn_, level_n_, predicted_frame_);
+    turnLevel(vm_, level_m_, predicted_frame_);
+    prepared_ = true;
+  }
+  const bool second = steps_ > 0;
+  step_ = {second ? 2 * dt_ / 3 : dt_, dt_, air_.mu / air_.rho, air_.rho, second};
+  convectingField({2 * n.V - m.V, 2 * n.omega - m.omega});
+  report_.courant = courant();
+  if (report_.courant > courant_limit_) {
+    std::ostringstream s;
+    s << "Courant number " << report_.courant << " exceeds grid/courant_limit = " << courant_limit_
+      << ": use more steps a flap, a coarser grid, or raise the limit";
+    throw NumericalError(s.str());
+  }
+  momentum_.prepare(step_, vn_, vm_, convecting_, p_, level_n_.wall);
+}
+
+/// One evaluation: (1) momentum with the wall's new velocity, (2) pressure, (3) loads.
+Loads NavierStokes::evaluate(const WingMotion& next) {
+  if (step_.dt == 0) prepareStep();
+  next_.frame = next.R_IW;
+  next_.grid = gridVelocity(next, air_.wind_I);
+  next_.wall = wallVelocity(next_.grid);
+  momentum_.finish(vn_, convecting_, combined(1, next_.wall, -1, level_n_.wall, 0, next_.wall), v_star_);
+  fillOuter(grid_, layout_, predicted_frame_.transpose() * stream_I_, v_star_);
+  fillWing(grid_, layout_, next_.wall, v_star_);
+
+  netOutflow(grid_, layout_, v_star_, air_.rho / step_.a, phi_.data());
+  pressure_.solve(phi_.data());
+
+  acceleration_ = step_.second_order
+                      ? combined(1.5 / dt_, next_.wall, -2 / dt_, level_n_.wall, 0.5 / dt_, level_m_.wall)
+                      : combined(1 / dt_, next_.wall, -1 / dt_, level_n_.wall, 0, next_.wall);
+  Loads loads;
+  pressureLoads(grid_, WingPressure(grid_, layout_, p_.data(), phi_.data()), air_.rho, acceleration_, loads);
+  frictionLoads(grid_, layout_, momentum_, v_star_, phi_.data(), step_.a / air_.rho, next_.wall, air_.mu,
+                loads);
+  if (!loads.finite()) throw NumericalError("Navier-Stokes: the loads are not finite");
+  evaluated_ = true;
+  return loads;
+}
+
+void NavierStokes::commit() {
+  if (!evaluated_) throw std::logic_error("NavierStokes::commit without evaluate");
+  subtractGradient(grid_, layout_, phi_.data(), step_.a / air_.rho, v_star_);
+  for (int k = 0; k < layout_.nz; ++k) {
+    for (int j = 0; j < layout_.ny; ++j) {
+      double* p = p_.data() + layout_.at(0, j, k);
+      const double* f = phi_.data() + (static_cast<std::ptrdiff_t>(k) * layout_.ny + j) * layout_.nx;
+      for (int i = 0; i < layout_.nx; ++i) p[i] += f[i];
+    }
+  }
+  std::swap(vm_, vn_);       // n becomes n-1
+  std::swap(vn_, v_star_);   // v* has become n
+  level_m_ = level_n_;
+  level_n_ = next_;
+  ++steps_;
+  prepared_ = evaluated_ = false;
+  step_ = {};
+}
+
+std::unique_ptr<FluidModel> makeNavierStokes(const Planform& planform, const Air& air,
+                                             const GridSettings& settings) {
+  return std::make_unique<NavierStokes>(makeGrid(planform, settings), air, planform.meanChord(),
+                                        settings.courant_limit);
+}
+
+}  // namespace monarch_flight

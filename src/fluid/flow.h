@@ -1,0 +1,78 @@
+#pragma once
+#include <memory>
+
+#include "fluid/field.h"
+#include "fluid/frame.h"
+#include "fluid/momentum.h"
+#include "monarch_flight/fluid/fluid_model.h"
+#include "monarch_flight/fluid/pressure_solver.h"
+
+namespace monarch_flight {
+
+/// One stored time level: the field's axes, the grid's velocity and the wall's, in those axes.
+struct Level {
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< takes the field's components to inertial ones
+  GridVelocity grid;                                     ///< of the grid at that time, in its own axes then
+  WallVelocity wall;                                     ///< resolved in `frame`
+};
+
+/// Incompressible flow on a grid that is fixed to the wing. Unknown: the absolute velocity (relative to
+/// the wind), resolved in wing axes. Method: docs/fluid.md.
+class NavierStokes : public FluidModel {
+ public:
+  NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit);
+
+  void start(const WingMotion& motion, double dt) override;
+  Loads evaluate(const WingMotion& next) override;
+  void commit() override;
+  std::vector<char> save() const override;
+  void restore(const std::vector<char>& bytes) override;
+  Matrix6d addedMass() const override { return added_mass_; }
+  FluidReport report() const override { return report_; }
+  long cells() const override { return grid_.cells(); }
+  SurfacePressure surfacePressure() const override;
+  std::vector<VortexPoint> vortices(double q_threshold, int limit) const override;
+
+  const Grid& grid() const { return grid_; }
+  const Layout& layout() const { return layout_; }
+  const Velocity& velocity() const { return vn_; }  ///< committed level n
+  /// Replaces the field at rest by a uniform stream `u_I` (inertial axes), at the outer boundary too.
+  void setUniformStream(const Eigen::Vector3d& u_I);
+
+ private:
+  void prepareStep();
+  void turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame);
+  void convectingField(const GridVelocity& grid_velocity);
+  double courant() const;
+  Matrix6d computeAddedMass();
+  void potentialStart();
+
+  Grid grid_;
+  Layout layout_;
+  Air air_;
+  double reference_length_, courant_limit_;
+  PressureSolver pressure_;
+  Momentum momentum_;
+  Matrix6d added_mass_;
+
+  // committed state
+  double dt_ = 0;
+  long steps_ = 0;            ///< committed since start
+  bool prepared_ = false;     ///< levels are turned into the predicted axes of n+1
+  Level level_n_, level_m_;   ///< n and n-1
+  Velocity vn_, vm_;
+  Array p_;
+  Eigen::Vector3d stream_I_ = Eigen::Vector3d::Zero();
+
+  // of the step being computed
+  MomentumStep step_{};
+  Velocity convecting_, v_star_;
+  Array phi_;
+  Eigen::Matrix3d predicted_frame_;
+  Level next_;
+  WallVelocity acceleration_;
+  bool evaluated_ = false;
+  FluidReport report_;
+};
+
+}  // namespace monarch_flight

@@ -1,0 +1,142 @@
+// Exact state of the flow as bytes, and the fields for pictures.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "fluid/flow.h"
+#include "fluid/wing_loads.h"
+
+namespace monarch_flight {
+namespace {
+
+class Writer {
+ public:
+  explicit Writer(std::vector<char>& out) : out_(out) {}
+  template <class T>
+  void operator()(const T& value) {
+    bytes(&value, sizeof(T));
+  }
+  void operator()(const Array& a) { bytes(a.data(), a.size() * sizeof(double)); }
+
+ private:
+  void bytes(const void* p, std::size_t n) {
+    const char* c = static_cast<const char*>(p);
+    out_.insert(out_.end(), c, c + n);
+  }
+  std::vector<char>& out_;
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::vector<char>& in) : in_(in) {}
+  template <class T>
+  void operator()(T& value) {
+    bytes(&value, sizeof(T));
+  }
+  void operator()(Array& a) { bytes(a.data(), a.size() * sizeof(double)); }
+  bool atEnd() const { return at_ == in_.size(); }
+
+ private:
+  void bytes(void* p, std::size_t n) {
+    if (n > in_.size() - at_) throw std::invalid_argument("fluid state: too short for this grid");
+    std::memcpy(p, in_.data() + at_, n);
+    at_ += n;
+  }
+  const std::vector<char>& in_;
+  std::size_t at_ = 0;
+};
+
+template <class Stream, class L>
+void exchangeLevel(Stream& s, L& level) {
+  for (int i = 0; i < 9; ++i) s(level.frame.data()[i]);
+  for (int i = 0; i < 3; ++i) s(level.grid.V[i]);
+  for (int i = 0; i < 3; ++i) s(level.grid.omega[i]);
+  s(level.wall);
+}
+
+}  // namespace
+
+std::vector<char> NavierStokes::save() const {
+  std::vector<char> out;
+  Writer w(out);
+  w(layout_.nx), w(layout_.ny), w(layout_.nz);
+  w(dt_), w(steps_), w(prepared_);
+  exchangeLevel(w, level_n_);
+  exchangeLevel(w, level_m_);
+  for (int i = 0; i < 9; ++i) w(predicted_frame_.data()[i]);
+  for (int i = 0; i < 3; ++i) w(stream_I_[i]);
+  for (int c = 0; c < 3; ++c) w(vn_.c[c]), w(vm_.c[c]);
+  w(p_);
+  return out;
+}
+
+void NavierStokes::restore(const std::vector<char>& bytes) {
+  Reader r(bytes);
+  int n[3];
+  r(n[0]), r(n[1]), r(n[2]);
+  if (n[0] != layout_.nx || n[1] != layout_.ny || n[2] != layout_.nz) {
+    throw std::invalid_argument("fluid state: made on another grid");
+  }
+  r(dt_), r(steps_), r(prepared_);
+  exchangeLevel(r, level_n_);
+  exchangeLevel(r, level_m_);
+  for (int i = 0; i < 9; ++i) r(predicted_frame_.data()[i]);
+  for (int i = 0; i < 3; ++i) r(stream_I_[i]);
+  for (int c = 0; c < 3; ++c) r(vn_.c[c]), r(vm_.c[c]);
+  r(p_);
+  if (!r.atEnd()) throw std::invalid_argument("fluid state: too long for this grid");
+  evaluated_ = false;
+  step_ = {};
+}
+
+SurfacePressure NavierStokes::surfacePressure() const {
+  SurfacePressure s;
+  const WingPressure p(grid_, layout_, p_.data(), nullptr);
+  for (int j = 0; j < layout_.ny; ++j) {
+    for (int i = 0; i < layout_.nx; ++i) {
+      if (!grid_.isWing(i, j)) continue;
+      const double x = grid_.x.centre[i], y = grid_.y.centre[j], a_n = acceleration_.at(2, x, y);
+      s.facets.push_back({float(x), float(y), float(grid_.x.width[i]), float(grid_.y.width[j]),
+                          float(p.below(i, j, air_.rho, a_n)), float(p.above(i, j, air_.rho, a_n))});
+    }
+  }
+  return s;
+}
+
+std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) const {
+  std::vector<VortexPoint> points;
+  const Axis* axes[3] = {&grid_.x, &grid_.y, &grid_.z};
+  for (int k = 1; k < layout_.nz - 1; ++k) {
+    for (int j = 1; j < layout_.ny - 1; ++j) {
+      for (int i = 1; i < layout_.nx - 1; ++i) {
+        const int at[3] = {i, j, k};
+        const std::ptrdiff_t q = layout_.at(i, j, k);
+        Eigen::Matrix3d g;  // g(c, d) = d v_c / d x_d at the cell's centre
+        for (int c = 0; c < 3; ++c) {
+          const double* v = vn_.c[c].data() + q;
+          const std::ptrdiff_t sc = layout_.stride(c);
+          for (int d = 0; d < 3; ++d) {
+            const std::ptrdiff_t s = layout_.stride(d);
+            const Axis& a = *axes[d];
+            g(c, d) = c == d ? (v[s] - v[0]) / a.width[at[d]]
+                             : 0.5 * (v[s] + v[s + sc] - v[-s] - v[-s + sc]) / (a.gap[at[d]] + a.gap[at[d] + 1]);
+          }
+        }
+        const double Q = -0.5 * (g * g).trace();
+        if (Q > q_threshold) {
+          points.push_back({float(grid_.x.centre[i]), float(grid_.y.centre[j]), float(grid_.z.centre[k]),
+                            float(Q), float(g(0, 2) - g(2, 0))});
+        }
+      }
+    }
+  }
+  if (static_cast<int>(points.size()) > limit) {
+    std::nth_element(points.begin(), points.begin() + limit, points.end(),
+                     [](const VortexPoint& a, const VortexPoint& b) { return a.q > b.q; });
+    points.resize(limit);
+  }
+  return points;
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,135 @@
+#include "fluid/projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace monarch_flight {
+
+void netOutflow(const Grid& grid, const Layout& l, const Velocity& v, double scale, double* b) {
+  const double* hx = grid.x.width.data();
+  for (int k = 0; k < l.nz; ++k) {
+    for (int j = 0; j < l.ny; ++j) {
+      const double hy = scale * grid.y.width[j], hz = grid.z.width[k];
+      const std::ptrdiff_t row = l.at(0, j, k);
+      const double* __restrict u = v.c[0].data() + row;
+      const double* __restrict s = v.c[1].data() + row;
+      const double* __restrict w = v.c[2].data() + row;
+      double* __restrict o = b + (static_cast<std::ptrdiff_t>(k) * l.ny + j) * l.nx;
+      const double ax = hy * hz, ay = scale * hz;
+      for (int i = 0; i < l.nx; ++i) {
+        o[i] = ax * (u[i + 1] - u[i]) + hx[i] * (ay * (s[i + l.sy] - s[i]) + hy * (w[i + l.sz] - w[i]));
+      }
+    }
+  }
+}
+
+void subtractGradient(const Grid& grid, const Layout& l, const double* phi, double scale, Velocity& v) {
+  const std::ptrdiff_t py = l.nx, pz = static_cast<std::ptrdiff_t>(l.nx) * l.ny;
+  for (int k = 0; k < l.nz; ++k) {
+    for (int j = 0; j < l.ny; ++j) {
+      const std::ptrdiff_t row = l.at(0, j, k);
+      const double* __restrict q = phi + k * pz + j * py;
+      double* __restrict u = v.c[0].data() + row;
+      double* __restrict s = v.c[1].data() + row;
+      double* __restrict w = v.c[2].data() + row;
+      for (int i = 1; i < l.nx; ++i) u[i] -= scale / grid.x.gap[i] * (q[i] - q[i - 1]);
+      const double gy = scale / grid.y.gap[j], gz = scale / grid.z.gap[k];
+      if (j > 0) {
+        for (int i = 0; i < l.nx; ++i) s[i] -= gy * (q[i] - q[i - py]);
+      }
+      if (k > 0 && k != grid.k_wing) {
+        for (int i = 0; i < l.nx; ++i) w[i] -= gz * (q[i] - q[i - pz]);
+      } else if (k > 0) {
+        for (int i = 0; i < l.nx; ++i) {
+          if (!grid.isWing(i, j)) w[i] -= gz * (q[i] - q[i - pz]);
+        }
+      }
+    }
+  }
+  if (!grid.open) return;
+  auto cell = [&](int i, int j, int k) { return phi[k * pz + j * py + i]; };
+  for (int k = 0; k < l.nz; ++k) {
+    for (int j = 0; j < l.ny; ++j) {
+      v.c[0][l.at(0, j, k)] -= scale / grid.x.gap[0] * cell(0, j, k);
+      v.c[0][l.at(l.nx, j, k)] += scale / grid.x.gap[l.nx] * cell(l.nx - 1, j, k);
+    }
+    for (int i = 0; i < l.nx; ++i) {
+      v.c[1][l.at(i, 0, k)] -= scale / grid.y.gap[0] * cell(i, 0, k);
+      v.c[1][l.at(i, l.ny, k)] += scale / grid.y.gap[l.ny] * cell(i, l.ny - 1, k);
+    }
+  }
+  for (int j = 0; j < l.ny; ++j) {
+    for (int i = 0; i < l.nx; ++i) {
+      v.c[2][l.at(i, j, 0)] -= scale / grid.z.gap[0] * cell(i, j, 0);
+      v.c[2][l.at(i, j, l.nz)] += scale / grid.z.gap[l.nz] * cell(i, j, l.nz - 1);
+    }
+  }
+}
+
+namespace {
+
+/// Calls f(outer point, inner point) for the outer faces or ghosts of component c, direction d.
+template <class F>
+void forOuter(const Layout& l, int c, int d, F f) {
+  const int lo[3] = {-1, -1, -1};
+  const int hi[3] = {l.nx, l.ny, l.nz};
+  const std::ptrdiff_t s = l.stride(d);
+  const int low = c == d ? 0 : -1, high = l.n(d);
+  const int e = (d + 1) % 3, g = (d + 2) % 3;
+  int q[3];
+  for (q[g] = lo[g]; q[g] <= hi[g]; ++q[g]) {
+    for (q[e] = lo[e]; q[e] <= hi[e]; ++q[e]) {
+      q[d] = low;
+      const std::ptrdiff_t a = l.at(q[0], q[1], q[2]);
+      f(a, a + s);
+      q[d] = high;
+      const std::ptrdiff_t b = l.at(q[0], q[1], q[2]);
+      f(b, b - s);
+    }
+  }
+}
+
+}  // namespace
+
+void fillOuter(const Grid& grid, const Layout& l, const Eigen::Vector3d& far, Velocity& v) {
+  for (int c = 0; c < 3; ++c) {
+    double* a = v.c[c].data();
+    for (int d = 0; d < 3; ++d) {
+      if (grid.open) {
+        forOuter(l, c, d, [a](std::ptrdiff_t outer, std::ptrdiff_t inner) { a[outer] = a[inner]; });
+      } else {
+        forOuter(l, c, d, [a, u = far[c]](std::ptrdiff_t outer, std::ptrdiff_t) { a[outer] = u; });
+      }
+    }
+  }
+}
+
+void fillWing(const Grid& grid, const Layout& l, const WallVelocity& wall, Velocity& v) {
+  for (int j = 0; j < l.ny; ++j) {
+    for (int i = 0; i < l.nx; ++i) {
+      if (grid.isWing(i, j)) v.c[2][l.at(i, j, grid.k_wing)] = wall.at(2, grid.x.centre[i], grid.y.centre[j]);
+    }
+  }
+}
+
+double relativeDivergence(const Grid& grid, const Layout& l, const Velocity& v) {
+  double speed = 0, worst = 0;
+  for (int c = 0; c < 3; ++c) {
+    for (double q : v.c[c]) speed = std::max(speed, std::abs(q));
+  }
+  if (speed == 0) return 0;
+  for (int k = 0; k < l.nz; ++k) {
+    for (int j = 0; j < l.ny; ++j) {
+      for (int i = 0; i < l.nx; ++i) {
+        const std::ptrdiff_t q = l.at(i, j, k);
+        const double hx = grid.x.width[i], hy = grid.y.width[j], hz = grid.z.width[k];
+        const double net = (v.c[0][q + 1] - v.c[0][q]) * hy * hz + (v.c[1][q + l.sy] - v.c[1][q]) * hx * hz +
+                           (v.c[2][q + l.sz] - v.c[2][q]) * hx * hy;
+        worst = std::max(worst, std::abs(net) / std::max({hy * hz, hx * hz, hx * hy}));
+      }
+    }
+  }
+  return worst / speed;
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,55 @@
+#include "fluid/wing_loads.h"
+
+namespace monarch_flight {
+
+void pressureLoads(const Grid& grid, const WingPressure& p, double rho, const WallVelocity& acceleration,
+                   Loads& loads) {
+  double f = 0, mx = 0, my = 0;
+  for (int j = 0; j < grid.y.n(); ++j) {
+    for (int i = 0; i < grid.x.n(); ++i) {
+      if (!grid.isWing(i, j)) continue;
+      const double x = grid.x.centre[i], y = grid.y.centre[j];
+      const double a_n = acceleration.at(2, x, y);
+      const double df = grid.x.width[i] * grid.y.width[j] * (p.below(i, j, rho, a_n) - p.above(i, j, rho, a_n));
+      f += df;
+      mx += y * df;
+      my -= x * df;
+    }
+  }
+  loads.force_pressure = {0, 0, f};
+  loads.moment_pressure = {mx, my, 0};
+}
+
+void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, const Velocity& v,
+                   const double* phi, double scale, const WallVelocity& wall, double mu, Loads& loads) {
+  const int kw = grid.k_wing;
+  const std::ptrdiff_t pz = static_cast<std::ptrdiff_t>(l.nx) * l.ny;
+  double f[2] = {0, 0}, mz = 0;
+  for (int c = 0; c < 2; ++c) {
+    const Axis& own = c == 0 ? grid.x : grid.y;
+    const std::ptrdiff_t s = c == 0 ? 1 : l.nx;
+    for (int j = c == 1; j < l.ny; ++j) {
+      for (int i = c == 0; i < l.nx; ++i) {
+        const double b = momentum.blocked(c, i, j);
+        if (b == 0) continue;
+        const double x = c == 0 ? grid.x.face[i] : grid.x.centre[i];
+        const double y = c == 1 ? grid.y.face[j] : grid.y.centre[j];
+        const double gap = own.gap[c == 0 ? i : j];
+        const double area = b * gap * (c == 0 ? grid.y.width[j] : grid.x.width[i]);
+        const double u_wall = wall.at(c, x, y);
+        double df = 0;
+        for (int k = kw - 1; k <= kw; ++k) {
+          const double* q = phi + k * pz + static_cast<std::ptrdiff_t>(j) * l.nx + i;
+          const double u = v.c[c][l.at(i, j, k)] - scale / gap * (q[0] - q[-s]);
+          df += mu * (u - u_wall) / (0.5 * grid.z.width[k]) * area;
+        }
+        f[c] += df;
+        mz += c == 0 ? -y * df : x * df;
+      }
+    }
+  }
+  loads.force_friction = {f[0], f[1], 0};
+  loads.moment_friction = {0, 0, mz};
+}
+
+}  // namespace monarch_flight

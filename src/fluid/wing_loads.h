@@ -1,0 +1,42 @@
+#pragma once
+#include "fluid/field.h"
+#include "fluid/momentum.h"
+#include "monarch_flight/fluid/fluid_model.h"
+
+namespace monarch_flight {
+
+/// The wing's surface pressure at one level, seen from the cells that touch it.
+///
+/// The pressure at the wall follows from the cells' by the wall-normal momentum equation,
+/// dp/dz = - rho a_n, a_n the wall's own normal acceleration: second order in the height of the cell.
+class WingPressure {
+ public:
+  /// `p` with layout `l` plus `phi` without ghosts (may be null).
+  WingPressure(const Grid& grid, const Layout& l, const double* p, const double* phi)
+      : grid_(grid), l_(l), p_(p), phi_(phi) {}
+  double below(int i, int j, double rho, double a_n) const {  ///< on the side z < 0 [Pa]
+    return cell(i, j, grid_.k_wing - 1) - 0.5 * grid_.z.width[grid_.k_wing - 1] * rho * a_n;
+  }
+  double above(int i, int j, double rho, double a_n) const {  ///< on the side z > 0 [Pa]
+    return cell(i, j, grid_.k_wing) + 0.5 * grid_.z.width[grid_.k_wing] * rho * a_n;
+  }
+
+ private:
+  double cell(int i, int j, int k) const {
+    const double base = p_ ? p_[l_.at(i, j, k)] : 0.0;
+    return phi_ ? base + phi_[(static_cast<std::ptrdiff_t>(k) * l_.ny + j) * l_.nx + i] : base;
+  }
+  const Grid& grid_;
+  const Layout& l_;
+  const double* p_;
+  const double* phi_;
+};
+
+/// Force and moment (about the origin) of the pressure jump.
+void pressureLoads(const Grid& grid, const WingPressure& p, double rho, const WallVelocity& acceleration,
+                   Loads& loads);
+/// Force and moment of the shear on both sides. `v` minus `scale` grad `phi` is the velocity.
+void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, const Velocity& v,
+                   const double* phi, double scale, const WallVelocity& wall, double mu, Loads& loads);
+
+}  // namespace monarch_flight
