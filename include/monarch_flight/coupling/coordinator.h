@@ -1,7 +1,6 @@
 #pragma once
+#include <array>
 #include <cstdint>
-#include <deque>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,31 +38,39 @@ class Coordinator {
   CoupledOutcome run(const std::vector<StepSink*>& sinks, const bool& stop);
 
  private:
-  struct Evaluation;  // one sub-iteration: guess, answers, residuals
+  struct Evaluation {  // one sub-iteration
+    Request request;   // to the fluid: the guess w^k
+    Loads loads;       // for it
+    Interface answer;  // w~^k
+  };
+  struct Interrupted {};  // `stop` was seen
 
   void start(const std::vector<StepSink*>& sinks);
   CommittedStep advance(std::uint32_t step, const bool& stop);
   bool converge(const CouplingSettings& settings, const Interface& prescribed, const bool& stop,
-                CommittedStep& out, Evaluation& last);
+                Evaluation& last, CommittedStep& out);
+  Evaluation evaluate(const Interface& guess, CommittedStep& out);
+  void commit(const Evaluation& last, CommittedStep& out);
+  void finish(const Loads& loads, CommittedStep& out);
+  void abort(std::uint32_t step) noexcept;
+  Reply ask(Role role, const Request& request, CommittedStep& out);
+
+  CouplingVector increments(const Interface& interface) const;
   CouplingVector predictedIncrements() const;
   Interface guess(const CouplingVector& increments, const Interface& prescribed) const;
-  CouplingVector increments(const Interface& interface) const;
-  Evaluation evaluate(std::uint32_t step, std::uint32_t iteration, const Interface& guess,
-                      CommittedStep& out);
-  double loadResidual(const Loads& loads, const Loads& previous) const;
-  void commit(const Evaluation& last, CommittedStep& out);
-  void remember(const CommittedStep& committed);
-  Reply ask(Role role, const Request& request, CommittedStep& out);
-  void abort(std::uint32_t step) noexcept;
+  std::array<double, 4> named(const CouplingVector& increments) const;
+  double loadChange(const Loads& loads, const Loads& previous) const;
   std::string notConverged(const CommittedStep& step) const;
 
   CoupledModel model_;
   CouplingSettings settings_;
   std::array<Participant*, 3> participants_;
   std::uint64_t run_id_;
-  CouplingVector scales_;              // beta dt^2 / L of each free coordinate: acceleration to increment
-  Interface committed_;                // level n
-  std::deque<CouplingVector> history_;  // increments of the levels n, n-1, n-2
+  std::array<bool, 4> free_;      // x, z, pitch, wing pitch
+  std::array<double, 4> scales_;  // L / (beta dt^2): increment d to acceleration, a = d L / (beta dt^2)
+  Interface committed_;           // level n
+  std::array<CouplingVector, 3> history_;          // increments of the levels n, n-1, n-2
+  int levels_ = 0;                                 // how many of them are known
   double force_scale_ = 0.0, moment_scale_ = 0.0;  // running scale of the loads
 };
 

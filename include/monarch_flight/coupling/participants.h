@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "monarch_flight/coupling/model.h"
@@ -13,11 +14,11 @@ namespace monarch_flight {
 ///  - START takes the initial state and forgets everything else.
 ///  - ITERATE of step n+1 is answered from (committed state n, request); the last answer is kept, and
 ///    the same request again gets the same answer, bit for bit.
-///  - COMMIT must carry the key (run, step, iteration) of the last answered ITERATE and its guess; the
-///    request's interface becomes the committed state. The same COMMIT again is answered again.
+///  - COMMIT must carry the key (run, step, iteration) of the last answered ITERATE and its guess, which
+///    becomes the committed state. The same COMMIT again gets the same answer.
 ///  - ABORT ends the run: only START is accepted after it.
 /// Wrong keys, non-finite numbers and exceptions of a solver end in Reply::error, which names
-/// participant, step and iteration; the committed state stays as it was.
+/// participant, step, iteration and phase; the committed state stays as it was.
 class SolverParticipant : public Participant {
  public:
   Reply exchange(const Request& request) final;
@@ -25,27 +26,30 @@ class SolverParticipant : public Participant {
  protected:
   SolverParticipant(Role role, const CoupledModel& model);
   const CoupledModel& model() const { return model_; }
+  /// Level n.
   const Interface& committed() const { return committed_; }
-  Role role() const { return role_; }
 
  private:
-  virtual void onStart(const Request& request) = 0;
+  virtual void onStart(const Request& request, Reply& reply) = 0;
   virtual void onIterate(const Request& request, Reply& reply) = 0;
-  /// `answered` is the ITERATE request that is kept. Throws std::invalid_argument when the interface to
-  /// be committed is not the one that was answered.
-  virtual void onCommit(const Request& request, const Request& answered, Reply& reply) = 0;
+  /// The answered guess is about to become the committed state.
+  virtual void onCommit(const Request& request, Reply& reply) = 0;
+  /// Whether `committed` is the part of the guess that the participant answered for.
+  virtual bool sameGuess(const Interface& answered, const Interface& committed) const = 0;
 
-  Reply answer(const Request& request);
-  void requireKey(const Request& request) const;
+  void answer(const Request& request, Reply& reply);
+  void start(const Request& request, Reply& reply);
+  void iterate(const Request& request, Reply& reply);
+  void commit(const Request& request, Reply& reply);
+  void requireNextStep(const Request& request) const;
 
   Role role_;
   CoupledModel model_;
   Interface committed_;
   std::uint64_t run_ = 0;
-  std::uint32_t step_ = 0;       // committed time level
+  std::uint32_t step_ = 0;  // committed time level
   bool running_ = false;
-  bool iterated_ = false;        // last_request_ is an answered ITERATE of step_ + 1
-  bool answered_ = false;        // last_reply_ answers last_request_
+  bool answered_ = false;  // last_reply_ is the answer to last_request_
   Request last_request_;
   Reply last_reply_;
 };
@@ -57,37 +61,41 @@ class FluidParticipant : public SolverParticipant {
   const FluidModel& fluid() const { return *fluid_; }
 
  private:
-  void onStart(const Request& request) override;
+  void onStart(const Request& request, Reply& reply) override;
   void onIterate(const Request& request, Reply& reply) override;
-  void onCommit(const Request& request, const Request& answered, Reply& reply) override;
+  void onCommit(const Request& request, Reply& reply) override;
+  bool sameGuess(const Interface& answered, const Interface& committed) const override;
+  WingMotion wingMotion(const Request& request) const;
 
   std::unique_ptr<FluidModel> fluid_;
 };
 
-/// The body: its state for the given loads and wing state.
+/// The body: its state for the given loads and the guess of body and wing.
 class FlightParticipant : public SolverParticipant {
  public:
   explicit FlightParticipant(const CoupledModel& model);
 
  private:
-  void onStart(const Request& request) override;
+  void onStart(const Request& request, Reply& reply) override;
   void onIterate(const Request& request, Reply& reply) override;
-  void onCommit(const Request& request, const Request& answered, Reply& reply) override;
+  void onCommit(const Request& request, Reply& reply) override;
+  bool sameGuess(const Interface& answered, const Interface& committed) const override;
 
   FlightSolver solver_;
 };
 
-/// The hinge: the wing's pitch for the given loads and body state.
+/// The hinge: the wing's pitch for the given loads, the body's answer and the guess of the pitch.
 class WingParticipant : public SolverParticipant {
  public:
   explicit WingParticipant(const CoupledModel& model);
 
  private:
-  void onStart(const Request& request) override;
+  void onStart(const Request& request, Reply& reply) override;
   void onIterate(const Request& request, Reply& reply) override;
-  void onCommit(const Request& request, const Request& answered, Reply& reply) override;
+  void onCommit(const Request& request, Reply& reply) override;
+  bool sameGuess(const Interface& answered, const Interface& committed) const override;
 
-  WingPitchSolver solver_;
+  std::optional<WingPitchSolver> solver_;  // empty when the pitch is prescribed
 };
 
 }  // namespace monarch_flight

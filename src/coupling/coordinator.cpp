@@ -1,0 +1,319 @@
+#include "monarch_flight/coupling/coordinator.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <sstream>
+
+#include "monarch_flight/coupling/interface_values.h"
+#include "monarch_flight/flight/flight_solver.h"
+#include "monarch_flight/math/errors.h"
+
+namespace monarch_flight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kScaleDecay = 0.999;  // of the loads' running scale, per step
+constexpr double kDivergence = 1e3;    // growth of the residual at which an attempt is given up
+constexpr double kCautious = 0.25;     // relaxation of the second attempt over that of the first
+constexpr int kHistoryShown = 8;       // residuals in the diagnosis of a failure
+constexpr const char* kNames[4] = {"x", "z", "theta_B", "theta_R"};
+
+bool due(std::uint32_t step, int every) {
+  return every > 0 && step % static_cast<std::uint32_t>(every) == 0;
+}
+
+/// The accelerations of x, z, theta_B, theta_R.
+std::array<double, 4> accelerations(const Interface& interface) {
+  return {interface.body.a.x(), interface.body.a.z(), interface.body.pitch.qdd,
+          interface.theta_R.qdd};
+}
+
+/// Smaller relaxation for a second attempt at a step.
+CouplingSettings cautious(CouplingSettings settings) {
+  settings.omega_initial *= kCautious;
+  settings.omega_min = std::min(settings.omega_min, settings.omega_initial);
+  settings.omega_max = std::max(settings.omega_initial, kCautious * settings.omega_max);
+  return settings;
+}
+
+double relative(double change, double scale) { return change == 0.0 ? 0.0 : change / scale; }
+
+}  // namespace
+
+Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& settings,
+                         Participant& fluid, Participant& flight, Participant& wing,
+                         std::uint64_t run_id)
+    : model_(model),
+      settings_(settings),
+      participants_{&fluid, &flight, &wing},
+      run_id_(run_id),
+      free_{model.free.x, model.free.z, model.free.pitch, model.free.wing_pitch} {
+  std::vector<std::string> faults = model.problems();
+  for (const std::string& fault : settings.problems()) faults.push_back(fault);
+  if (!faults.empty()) throw InputError(faults);
+  const double unit = 1.0 / (model.newmark.beta * model.newmark.dt * model.newmark.dt);
+  scales_ = {settings.length_scale * unit, settings.length_scale * unit, unit, unit};
+}
+
+CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, const bool& stop) {
+  CoupledOutcome outcome;
+  std::uint32_t step = 0;
+  try {
+    start(sinks);
+    for (step = 1; step <= model_.steps; ++step) {
+      const CommittedStep committed = advance(step, stop);
+      for (StepSink* sink : sinks) sink->onStep(committed);
+    }
+    outcome.complete = true;
+  } catch (const Interrupted&) {
+    outcome.failure = "interrupted in step " + std::to_string(step) + "; step " +
+                      std::to_string(step - 1) + " is the last one committed";
+  } catch (const std::exception& e) {
+    outcome.failure = e.what();
+  }
+  abort(std::min(step, model_.steps));
+  for (StepSink* sink : sinks) {
+    try {
+      sink->onEnd(outcome.failure);
+    } catch (const std::exception& e) {
+      outcome.complete = false;
+      outcome.failure += (outcome.failure.empty() ? "" : "\n") + std::string(e.what());
+    }
+  }
+  return outcome;
+}
+
+void Coordinator::start(const std::vector<StepSink*>& sinks) {
+  const auto begin = Clock::now();
+  CommittedStep out;
+  out.t = model_.time(0);
+  out.prescribed = true;
+  Request request;
+  request.key = {run_id_, 0, 0, Phase::kStart};
+  request.t = out.t;
+  request.interface = model_.prescribed(out.t);
+  for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
+    const Reply reply = ask(role, request, out);
+    if (role == Role::kFluid) out.fluid = reply.report;
+  }
+  levels_ = 0;
+  force_scale_ = moment_scale_ = 0.0;
+  out.interface = request.interface;
+  finish(Loads(), out);
+  out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
+                   out.wall_s[1] - out.wall_s[2];
+  for (StepSink* sink : sinks) sink->onStep(out);
+}
+
+CommittedStep Coordinator::advance(std::uint32_t step, const bool& stop) {
+  const auto begin = Clock::now();
+  CommittedStep out;
+  out.step = step;
+  out.t = model_.time(step);
+  const Interface prescribed = model_.prescribed(out.t);
+  out.prescribed = static_cast<int>(step) <= settings_.prescribed_steps || model_.free.count() == 0;
+
+  Evaluation last;
+  if (out.prescribed) {
+    if (stop) throw Interrupted();
+    last = evaluate(prescribed, out);
+  } else if (!converge(settings_, prescribed, stop, last, out) &&
+             !converge(cautious(settings_), prescribed, stop, last, out)) {
+    throw NumericalError(notConverged(out));
+  }
+  commit(last, out);
+  out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
+                   out.wall_s[1] - out.wall_s[2];
+  return out;
+}
+
+bool Coordinator::converge(const CouplingSettings& settings, const Interface& prescribed,
+                           const bool& stop, Evaluation& last, CommittedStep& out) {
+  const std::unique_ptr<Accelerator> accelerator = makeAccelerator(settings);
+  // 1. predict
+  CouplingVector d = predictedIncrements();
+  double first = 0.0;
+  Loads previous;
+  for (int k = 0; k < settings.max_sub_iterations; ++k) {
+    if (stop) throw Interrupted();
+    // 2. exchange
+    last = evaluate(guess(d, prescribed), out);
+    IterationRecord& record = out.iterations.back();
+    // 3. residual; the first sub-iteration has no loads to compare with
+    const CouplingVector residual = increments(last.answer) - d;
+    record.residual = named(residual);
+    record.load_residual = k == 0 ? 1.0 : loadChange(last.loads, previous);
+    previous = last.loads;
+    // 4. converged, hopeless, or better next time
+    const double largest = residual.cwiseAbs().maxCoeff();
+    if (largest <= settings.tolerance && record.load_residual <= settings.load_tolerance)
+      return true;
+    if (k == 0) first = std::max(largest, 1.0 / kDivergence);
+    if (largest > kDivergence * first) return false;
+    record.relaxation = accelerator->advance(d, residual);
+  }
+  return false;
+}
+
+Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, CommittedStep& out) {
+  Evaluation evaluation;
+  Request& request = evaluation.request;
+  request.key = {run_id_, out.step, static_cast<std::uint32_t>(out.iterations.size()),
+                 Phase::kIterate};
+  request.t = out.t;
+  request.interface = guess;
+
+  const Reply air = ask(Role::kFluid, request, out);
+  Request with_loads = request;
+  with_loads.loads = evaluation.loads = air.loads;
+  const Reply body = ask(Role::kFlight, with_loads, out);
+  with_loads.interface.body = body.interface.body;
+  const Reply wing = ask(Role::kWing, with_loads, out);
+  evaluation.answer = {body.interface.body, wing.interface.theta_R};
+
+  IterationRecord record;
+  record.step = out.step;
+  record.iteration = request.key.iteration;
+  record.fluid_wall_s = air.wall_s;
+  out.iterations.push_back(record);
+  return evaluation;
+}
+
+void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
+  // 5. commit: what the fluid was last evaluated for, on all sides
+  Request request = last.request;
+  request.key.phase = Phase::kCommit;
+  const bool surface = due(out.step, model_.surface_every);
+  const bool vortices = due(out.step, model_.vortices_every);
+  for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
+    request.want_fields = role == Role::kFluid && (surface || vortices);
+    Reply reply = ask(role, request, out);
+    if (role != Role::kFluid) continue;
+    out.fluid = reply.report;
+    if (surface) out.surface = std::move(reply.surface);
+    if (vortices) out.vortices = std::move(reply.vortices);
+  }
+  out.interface = request.interface;
+  finish(last.loads, out);
+}
+
+void Coordinator::finish(const Loads& loads, CommittedStep& out) {
+  out.loads = loads;
+  out.angles = model_.angles(out.t, out.interface.theta_R);
+  const double beta = model_.insect.beta;
+  Eigen::Vector3d force_B = wingAttitude(beta, out.angles) * loads.force();
+  if (!model_.insect.bare_wing) {
+    force_B += leftWingAttitude(beta, out.angles) * mirrored(loads).force();
+  }
+  out.force_I = out.interface.body.R_IB * force_B;
+
+  committed_ = out.interface;
+  history_[2] = history_[1];
+  history_[1] = history_[0];
+  history_[0] = increments(committed_);
+  levels_ = std::min(levels_ + 1, 3);
+  force_scale_ = std::max(kScaleDecay * force_scale_, loads.force().norm());
+  moment_scale_ = std::max(kScaleDecay * moment_scale_, loads.moment().norm());
+}
+
+void Coordinator::abort(std::uint32_t step) noexcept {
+  Request request;
+  request.key = {run_id_, step, 0, Phase::kAbort};
+  for (Participant* participant : participants_) {
+    try {
+      participant->exchange(request);
+    } catch (...) {  // the run is over; who cannot hear it has its own watchdog
+    }
+  }
+}
+
+Reply Coordinator::ask(Role role, const Request& request, CommittedStep& out) {
+  const std::size_t index = static_cast<std::size_t>(role);
+  Reply reply = participants_[index]->exchange(request);
+  out.wall_s[index] += reply.wall_s;
+  if (!reply.error.empty()) throw NumericalError(reply.error);
+  const std::string place =
+      std::string(roleName(role)) + ", step " + std::to_string(request.key.step) + ", iteration " +
+      std::to_string(request.key.iteration) + ", " + phaseName(request.key.phase) + ": ";
+  if (reply.key != request.key)
+    throw ExchangeError(place + "the answer belongs to another request");
+  if (!finite(reply)) throw NumericalError(place + "non-finite number in the answer");
+  return reply;
+}
+
+CouplingVector Coordinator::increments(const Interface& interface) const {
+  const std::array<double, 4> a = accelerations(interface);
+  CouplingVector d(model_.free.count());
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (free_[i]) d(next++) = a[i] / scales_[i];
+  }
+  return d;
+}
+
+CouplingVector Coordinator::predictedIncrements() const {
+  switch (levels_) {
+    case 1:
+      return history_[0];
+    case 2:
+      return 2.0 * history_[0] - history_[1];
+    default:
+      return 3.0 * (history_[0] - history_[1]) + history_[2];
+  }
+}
+
+Interface Coordinator::guess(const CouplingVector& increments, const Interface& prescribed) const {
+  const std::array<double, 4> d = named(increments);
+  const Eigen::Vector3d body(d[0] * scales_[0], d[1] * scales_[1], d[2] * scales_[2]);
+  Interface next = prescribed;
+  next.body = advancedBody(committed_.body, prescribed.body, model_.free, model_.newmark, body);
+  if (free_[3]) next.theta_R = model_.newmark.advance(committed_.theta_R, d[3] * scales_[3]);
+  return next;
+}
+
+std::array<double, 4> Coordinator::named(const CouplingVector& increments) const {
+  std::array<double, 4> values{};
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (free_[i]) values[i] = increments(next++);
+  }
+  return values;
+}
+
+double Coordinator::loadChange(const Loads& loads, const Loads& previous) const {
+  const double force = (loads.force() - previous.force()).norm();
+  const double moment = (loads.moment() - previous.moment()).norm();
+  return std::max(relative(force, std::max(force_scale_, loads.force().norm())),
+                  relative(moment, std::max(moment_scale_, loads.moment().norm())));
+}
+
+std::string Coordinator::notConverged(const CommittedStep& step) const {
+  const std::vector<IterationRecord>& all = step.iterations;
+  std::ostringstream text;
+  text << "step " << step.step << " (t = " << step.t << " s) did not converge in " << all.size()
+       << " sub-iterations, the second half of them with smaller relaxation; last residuals:";
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double residual = std::abs(all.back().residual[i]);
+    if (!free_[i]) continue;
+    text << ' ' << kNames[i] << ' ' << residual
+         << (residual > settings_.tolerance ? " (too large)" : " (good)") << ',';
+  }
+  text << " loads " << all.back().load_residual
+       << (all.back().load_residual > settings_.load_tolerance ? " (too large)" : " (good)")
+       << "; limits: " << settings_.tolerance << ", loads " << settings_.load_tolerance
+       << "; largest residual of the last sub-iterations:";
+  const std::size_t shown = std::min<std::size_t>(all.size(), kHistoryShown);
+  for (std::size_t i = all.size() - shown; i < all.size(); ++i) {
+    double largest = 0.0;
+    for (double residual : all[i].residual) largest = std::max(largest, std::abs(residual));
+    text << ' ' << largest;
+  }
+  text << "; lower coupling/omega_initial and coupling/omega_max, shorten the time step, raise "
+          "coupling/max_sub_iterations, or loosen the tolerance that is not met";
+  return text.str();
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,51 @@
+#include "monarch_flight/coupling/interface_values.h"
+
+#include <cmath>
+
+namespace monarch_flight {
+namespace {
+
+bool same(const Loads& a, const Loads& b) {
+  return a.force_pressure == b.force_pressure && a.force_friction == b.force_friction &&
+         a.moment_pressure == b.moment_pressure && a.moment_friction == b.moment_friction;
+}
+
+bool finite(const Loads& loads) {
+  return loads.force_pressure.allFinite() && loads.force_friction.allFinite() &&
+         loads.moment_pressure.allFinite() && loads.moment_friction.allFinite();
+}
+
+}  // namespace
+
+InterfaceValues interfaceValues(const Interface& interface) {
+  const BodyState& body = interface.body;
+  InterfaceValues values;
+  values << body.x, body.v, body.a, body.R_IB.col(0), body.R_IB.col(1), body.R_IB.col(2),
+      body.Omega_B, body.Omega_dot_B, body.pitch.q, body.pitch.qd, body.pitch.qdd,
+      interface.theta_R.q, interface.theta_R.qd, interface.theta_R.qdd;
+  return values;
+}
+
+bool same(const Interface& a, const Interface& b) {
+  return interfaceValues(a) == interfaceValues(b);
+}
+
+bool same(const Coordinate& a, const Coordinate& b) {
+  return a.q == b.q && a.qd == b.qd && a.qdd == b.qdd;
+}
+
+bool same(const Request& a, const Request& b) {
+  return a.key == b.key && a.t == b.t && same(a.interface, b.interface) && same(a.loads, b.loads) &&
+         a.want_fields == b.want_fields;
+}
+
+bool finite(const Request& request) {
+  return std::isfinite(request.t) && interfaceValues(request.interface).allFinite() &&
+         finite(request.loads);
+}
+
+bool finite(const Reply& reply) {
+  return interfaceValues(reply.interface).allFinite() && finite(reply.loads);
+}
+
+}  // namespace monarch_flight

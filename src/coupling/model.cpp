@@ -1,0 +1,45 @@
+#include "monarch_flight/coupling/model.h"
+
+#include <cmath>
+
+namespace monarch_flight {
+
+JointAngles CoupledModel::angles(double t, const Coordinate& theta_R) const {
+  JointAngles angles = motion->at(t).angles;
+  angles.theta = theta_R;
+  return angles;
+}
+
+Interface CoupledModel::prescribed(double t) const {
+  const PrescribedState state = motion->at(t);
+  return {state.body, state.angles.theta};
+}
+
+std::vector<std::string> CoupledModel::problems() const {
+  std::vector<std::string> faults;
+  if (!motion) faults.push_back("motion: is missing; give a Fourier series or a table");
+  if (!(std::isfinite(newmark.dt) && newmark.dt > 0.0)) {
+    faults.push_back("time/dt = " + std::to_string(newmark.dt) + " s: must be above 0");
+  }
+  if (!(newmark.beta > 0.0 && newmark.beta <= 0.5)) {
+    faults.push_back("newmark/beta = " + std::to_string(newmark.beta) +
+                     ": must be in (0, 0.5]; 0.25 is the average acceleration");
+  }
+  if (!(newmark.gamma >= 0.5 && newmark.gamma <= 1.0)) {
+    faults.push_back("newmark/gamma = " + std::to_string(newmark.gamma) +
+                     ": must be in [0.5, 1]; 0.5 is of second order");
+  }
+  if (!std::isfinite(gravity) || !std::isfinite(t_start)) {
+    faults.push_back("gravity, time/t_start: must be finite numbers");
+  }
+  if (insect.bare_wing && (free.x || free.z || free.pitch)) {
+    faults.push_back(
+        "free/x, free/z, free/pitch: must be false for a bare wing, which has no body to move");
+  }
+  if (surface_every < 0 || vortices_every < 0 || vortex_limit < 0) {
+    faults.push_back("surface_every, vortices_every, vortex_limit: must be at least 0 (0: never)");
+  }
+  return faults;
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,80 @@
+#include "monarch_flight/coupling/participants.h"
+
+#include <utility>
+
+#include "monarch_flight/coupling/interface_values.h"
+
+namespace monarch_flight {
+
+FluidParticipant::FluidParticipant(const CoupledModel& model, std::unique_ptr<FluidModel> fluid)
+    : SolverParticipant(Role::kFluid, model), fluid_(std::move(fluid)) {}
+
+WingMotion FluidParticipant::wingMotion(const Request& request) const {
+  return rightWingMotion(model().insect, request.interface.body,
+                         model().angles(request.t, request.interface.theta_R));
+}
+
+void FluidParticipant::onStart(const Request& request, Reply& reply) {
+  fluid_->start(wingMotion(request), model().newmark.dt);
+  reply.report = fluid_->report();
+  reply.report.cells = fluid_->cells();
+  reply.report.added_mass = fluid_->addedMass();
+}
+
+void FluidParticipant::onIterate(const Request& request, Reply& reply) {
+  reply.loads = fluid_->evaluate(wingMotion(request));
+  reply.report = fluid_->report();
+}
+
+void FluidParticipant::onCommit(const Request& request, Reply& reply) {
+  fluid_->commit();
+  reply.report = fluid_->report();
+  if (!request.want_fields) return;
+  reply.surface = fluid_->surfacePressure();
+  reply.vortices = fluid_->vortices(model().q_threshold, model().vortex_limit);
+}
+
+bool FluidParticipant::sameGuess(const Interface& answered, const Interface& committed) const {
+  return same(answered, committed);
+}
+
+FlightParticipant::FlightParticipant(const CoupledModel& model)
+    : SolverParticipant(Role::kFlight, model),
+      solver_(model.insect, model.gravity, model.free, model.newmark) {}
+
+void FlightParticipant::onStart(const Request&, Reply&) {}
+
+void FlightParticipant::onIterate(const Request& request, Reply& reply) {
+  const BodyState prescribed = model().prescribed(request.t).body;
+  const JointAngles angles = model().angles(request.t, request.interface.theta_R);
+  reply.interface.body =
+      solver_.step(committed().body, prescribed, request.interface.body, angles, request.loads);
+}
+
+void FlightParticipant::onCommit(const Request&, Reply&) {}
+
+bool FlightParticipant::sameGuess(const Interface& answered, const Interface& committed) const {
+  return same(answered, committed);
+}
+
+WingParticipant::WingParticipant(const CoupledModel& model)
+    : SolverParticipant(Role::kWing, model) {
+  if (model.free.wing_pitch) solver_.emplace(model.insect, model.gravity, model.newmark);
+}
+
+void WingParticipant::onStart(const Request&, Reply&) {}
+
+void WingParticipant::onIterate(const Request& request, Reply& reply) {
+  const JointAngles angles = model().angles(request.t, request.interface.theta_R);
+  reply.interface.theta_R =
+      solver_ ? solver_->step(committed().theta_R, request.interface.body, angles, request.loads)
+              : model().prescribed(request.t).theta_R;
+}
+
+void WingParticipant::onCommit(const Request&, Reply&) {}
+
+bool WingParticipant::sameGuess(const Interface& answered, const Interface& committed) const {
+  return same(answered.theta_R, committed.theta_R);  // the body in ITERATE is the flight's answer
+}
+
+}  // namespace monarch_flight
