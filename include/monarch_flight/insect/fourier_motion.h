@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "monarch_flight/insect/prescribed_motion.h"
+
+namespace monarch_flight {
+
+/// a0 + sum over n = 1, 2, ... of an[n-1] cos(n w t) + bn[n-1] sin(n w t), w = multiple * 2 pi f.
+struct FourierSeries {
+  double a0 = 0.0;         ///< mean [rad]
+  std::vector<double> an;  ///< cosine coefficients [rad]
+  std::vector<double> bn;  ///< sine coefficients [rad]
+  int multiple = 1;        ///< the series runs at this multiple of the flapping frequency
+  bool constant() const { return an.empty() && bn.empty(); }
+  /// Value with exact first and second derivatives; `frequency` in Hz, t in s.
+  Coordinate at(double frequency, double t) const;
+};
+
+/// Angles of body and joints as Fourier series, the body's mass centre at constant velocity.
+struct FourierMotionSettings {
+  double frequency = 0.0;  ///< flapping frequency [Hz]; 0 only with constant angles
+  FourierSeries phi, psi, theta, theta_A, pitch;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< at t = 0, F_I (NED) [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< F_I (NED) [m/s]
+};
+
+/// Motion by Fourier series, for every t.
+class FourierMotion : public PrescribedMotion {
+ public:
+  explicit FourierMotion(FourierMotionSettings settings) : settings_(std::move(settings)) {}
+  PrescribedState at(double t) const override;
+
+ private:
+  FourierMotionSettings settings_;
+};
+
+}  // namespace monarch_flight

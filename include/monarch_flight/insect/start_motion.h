@@ -1,0 +1,35 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "monarch_flight/insect/prescribed_motion.h"
+
+namespace monarch_flight {
+
+/// Explicit start of one coordinate: it follows q0 + qd0 (t - t_start).
+struct StartValue {
+  double q0 = 0.0;   ///< [m] or [rad]
+  double qd0 = 0.0;  ///< [m/s] or [rad/s]
+  Coordinate at(double elapsed) const { return {q0 + qd0 * elapsed, qd0, 0.0}; }
+};
+
+/// Which coordinates start explicitly; the others follow the motion below.
+struct StartValues {
+  std::optional<StartValue> x, z, pitch, theta_R;
+};
+
+/// A motion in which some coordinates leave from explicit initial values at a constant rate. With
+/// an explicit pitch the body only pitches (BodyState's invariant holds).
+class StartMotion : public PrescribedMotion {
+ public:
+  StartMotion(std::shared_ptr<const PrescribedMotion> base, StartValues start, double t_start)
+      : base_(std::move(base)), start_(start), t_start_(t_start) {}
+  PrescribedState at(double t) const override;
+
+ private:
+  std::shared_ptr<const PrescribedMotion> base_;
+  StartValues start_;
+  double t_start_;
+};
+
+}  // namespace monarch_flight

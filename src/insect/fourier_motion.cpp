@@ -1,0 +1,37 @@
+#include "monarch_flight/insect/fourier_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace monarch_flight {
+
+Coordinate FourierSeries::at(double frequency, double t) const {
+  Coordinate sum{a0, 0.0, 0.0};
+  const std::size_t terms = std::max(an.size(), bn.size());
+  for (std::size_t i = 0; i < terms; ++i) {
+    const double a = i < an.size() ? an[i] : 0.0;
+    const double b = i < bn.size() ? bn[i] : 0.0;
+    const double w = 2.0 * M_PI * frequency * multiple * static_cast<double>(i + 1);
+    const double c = std::cos(w * t);
+    const double s = std::sin(w * t);
+    sum.q += a * c + b * s;
+    sum.qd += w * (b * c - a * s);
+    sum.qdd -= w * w * (a * c + b * s);
+  }
+  return sum;
+}
+
+PrescribedState FourierMotion::at(double t) const {
+  const double f = settings_.frequency;
+  PrescribedState state;
+  state.body.x = settings_.position + settings_.velocity * t;
+  state.body.v = settings_.velocity;
+  state.body = withPitch(state.body, settings_.pitch.at(f, t));
+  state.angles.phi = settings_.phi.at(f, t);
+  state.angles.psi = settings_.psi.at(f, t);
+  state.angles.theta = settings_.theta.at(f, t);
+  state.angles.theta_A = settings_.theta_A.at(f, t);
+  return state;
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,24 @@
+#include "monarch_flight/insect/start_motion.h"
+
+namespace monarch_flight {
+namespace {
+
+void setComponent(BodyState& body, int i, const Coordinate& value) {
+  body.x[i] = value.q;
+  body.v[i] = value.qd;
+  body.a[i] = value.qdd;
+}
+
+}  // namespace
+
+PrescribedState StartMotion::at(double t) const {
+  PrescribedState state = base_->at(t);
+  const double elapsed = t - t_start_;
+  if (start_.x) setComponent(state.body, 0, start_.x->at(elapsed));
+  if (start_.z) setComponent(state.body, 2, start_.z->at(elapsed));
+  if (start_.pitch) state.body = withPitch(state.body, start_.pitch->at(elapsed));
+  if (start_.theta_R) state.angles.theta = start_.theta_R->at(elapsed);
+  return state;
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,171 @@
+#include "monarch_flight/insect/table_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "insect/smooth_spline.h"
+#include "monarch_flight/math/errors.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr double kGapFactor = 1.5;
+constexpr double kUnitTolerance = 1e-4;
+constexpr std::size_t kMostFaults = 10;
+
+std::string place(const NumericTable& table, std::size_t row, const std::string& column) {
+  return table.name + ": row " + std::to_string(row + 1) + ", column " + column;
+}
+
+void checkTimes(const NumericTable& table, std::vector<std::string>& faults) {
+  std::vector<double> spacing;
+  for (std::size_t i = 1; i < table.rows.size(); ++i) {
+    spacing.push_back(table.rows[i][0] - table.rows[i - 1][0]);
+  }
+  std::vector<double> sorted = spacing;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  for (std::size_t i = 0; i < spacing.size() && faults.size() < kMostFaults; ++i) {
+    std::ostringstream text;
+    text.precision(9);
+    text << place(table, i + 1, "t") << " = " << table.rows[i + 1][0] << " s: ";
+    if (!(spacing[i] > 0.0)) {
+      text << "must be > " << table.rows[i][0] << " s of the row before; time must not go back";
+      faults.push_back(text.str());
+    } else if (median > 0.0 && spacing[i] > kGapFactor * median) {
+      text << "gap of " << spacing[i] << " s: must be <= " << kGapFactor
+           << " times the usual spacing of " << median << " s; fill in the missing rows";
+      faults.push_back(text.str());
+    }
+  }
+}
+
+/// Checks unit length and the turn from row to row, and makes the signs continuous (q and -q are
+/// the same attitude).
+void checkQuaternions(NumericTable& table, std::vector<std::string>& faults) {
+  constexpr int kFirst = 4;
+  Eigen::Vector4d previous = Eigen::Vector4d::Zero();
+  for (std::size_t i = 0; i < table.rows.size() && faults.size() < kMostFaults; ++i) {
+    Eigen::Map<Eigen::Vector4d> q(table.rows[i].data() + kFirst);
+    const double norm = q.norm();
+    std::ostringstream text;
+    if (std::abs(norm - 1.0) > kUnitTolerance) {
+      text << place(table, i, "qw..qz") << ": length " << norm << ": must be 1 within "
+           << kUnitTolerance << "; normalise the quaternion";
+      faults.push_back(text.str());
+      continue;
+    }
+    q /= norm;
+    if (q.dot(previous) < 0.0) q = -q;
+    if (!previous.isZero() && q.dot(previous) < std::cos(M_PI / 4.0)) {
+      text << place(table, i, "qw..qz") << ": turned by "
+           << 2.0 * std::acos(std::min(1.0, q.dot(previous))) * 180.0 / M_PI
+           << " deg since the row before: must be <= 90; give more rows";
+      faults.push_back(text.str());
+    }
+    previous = q;
+  }
+}
+
+void checkFinite(const NumericTable& table, std::vector<std::string>& faults) {
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    for (std::size_t k = 0; k < table.columns.size() && faults.size() < kMostFaults; ++k) {
+      if (!std::isfinite(table.rows[i][k])) {
+        faults.push_back(place(table, i, table.columns[k]) + " is not a finite number; correct it");
+      }
+    }
+  }
+}
+
+Coordinate coordinate(const SmoothSpline::Value& v, int i) { return {v.q[i], v.qd[i], v.qdd[i]}; }
+
+/// Rotation part of the body state from the unnormalised quaternion spline p: q = p / |p|.
+/// omega = 2 vec(p* p') / |p|^2; alpha = 2 vec(p* p'') / |p|^2 - 2 (p . p') / |p|^2 omega.
+void setAttitude(BodyState& body, const Eigen::Vector4d& p, const Eigen::Vector4d& pd,
+                 const Eigen::Vector4d& pdd) {
+  const double n2 = p.squaredNorm();
+  const auto vectorPart = [&p](const Eigen::Vector4d& d) -> Eigen::Vector3d {
+    return p[0] * d.tail<3>() - d[0] * p.tail<3>() - p.tail<3>().cross(d.tail<3>());
+  };
+  body.R_IB = Eigen::Quaterniond(p[0], p[1], p[2], p[3]).normalized().toRotationMatrix();
+  body.Omega_B = 2.0 / n2 * vectorPart(pd);
+  body.Omega_dot_B = 2.0 / n2 * vectorPart(pdd) - 2.0 * p.dot(pd) / n2 * body.Omega_B;
+  // pitch = asin(-R(2,0)); R' = R W, R'' = R (W W + W') with W = hat(Omega).
+  const Eigen::RowVector3d row = body.R_IB.row(2);
+  const Eigen::Vector3d& w = body.Omega_B;
+  const Eigen::Vector3d e1 = Eigen::Vector3d::UnitX();
+  const double s = -row * e1;
+  const double sd = -row.dot(w.cross(e1));
+  const double sdd = -row.dot(w.cross(w.cross(e1)) + body.Omega_dot_B.cross(e1));
+  const double c = std::sqrt(std::max(0.0, 1.0 - s * s));
+  body.pitch.q = std::asin(std::min(1.0, std::max(-1.0, s)));
+  if (c > 1e-9) {  // at +-90 degrees the pitch angle has no derivative
+    body.pitch.qd = sd / c;
+    body.pitch.qdd = sdd / c + s * sd * sd / (c * c * c);
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& TableMotion::columnsOf(TableKind kind) {
+  static const std::vector<std::string> wing{"t", "x", "y", "z", "qw", "qx", "qy", "qz"};
+  static const std::vector<std::string> body{"t",   "x",   "y",       "z",      "theta_B",
+                                             "phi", "psi", "theta_R", "theta_A"};
+  return kind == TableKind::kWing ? wing : body;
+}
+
+TableMotion::TableMotion(const NumericTable& given, TableKind kind) : kind_(kind) {
+  NumericTable table = given.select(columnsOf(kind));
+  const std::size_t n = table.rows.size();
+  if (n < static_cast<std::size_t>(SmoothSpline::kLeastSamples)) {
+    throw InputError(table.name + ": " + std::to_string(n) + " rows: must be >= " +
+                     std::to_string(SmoothSpline::kLeastSamples) + "; give more rows");
+  }
+  std::vector<std::string> faults;
+  checkFinite(table, faults);
+  if (faults.empty()) checkTimes(table, faults);
+  if (faults.empty() && kind == TableKind::kWing) checkQuaternions(table, faults);
+  if (!faults.empty()) throw InputError(faults);
+
+  std::vector<double> times;
+  Eigen::MatrixXd samples(table.columns.size() - 1, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    times.push_back(table.rows[i][0]);
+    for (Eigen::Index k = 0; k < samples.rows(); ++k) samples(k, i) = table.rows[i][k + 1];
+  }
+  t_begin_ = times.front();
+  t_end_ = times.back();
+  spline_ = std::make_unique<const SmoothSpline>(times, samples);
+}
+
+TableMotion::~TableMotion() = default;
+
+PrescribedState TableMotion::at(double t) const {
+  const double rounding = 1e-9 * (t_end_ - t_begin_);
+  if (!(t >= t_begin_ - rounding && t <= t_end_ + rounding)) {
+    std::ostringstream text;
+    text.precision(9);
+    text << "t = " << t << " s lies outside the motion table: " << t_begin_ << " to " << t_end_
+         << " s";
+    throw std::out_of_range(text.str());
+  }
+  const SmoothSpline::Value v = spline_->at(t);
+  PrescribedState state;
+  state.body.x = v.q.head<3>();
+  state.body.v = v.qd.head<3>();
+  state.body.a = v.qdd.head<3>();
+  if (kind_ == TableKind::kWing) {
+    setAttitude(state.body, v.q.tail<4>(), v.qd.tail<4>(), v.qdd.tail<4>());
+    return state;
+  }
+  state.body = withPitch(state.body, coordinate(v, 3));
+  state.angles.phi = coordinate(v, 4);
+  state.angles.psi = coordinate(v, 5);
+  state.angles.theta = coordinate(v, 6);
+  state.angles.theta_A = coordinate(v, 7);
+  return state;
+}
+
+}  // namespace monarch_flight
