@@ -60,8 +60,7 @@ void SolverParticipant::answer(const Request& request, Reply& reply) {
     case Phase::kCommit:
       return commit(request, reply);
     case Phase::kAbort:
-      if (request.key.run == run_) running_ = false;
-      return;
+      return abort(request);
   }
   throw Refusal("unknown phase");
 }
@@ -76,12 +75,21 @@ void SolverParticipant::start(const Request& request, Reply& reply) {
   running_ = true;
 }
 
-void SolverParticipant::requireNextStep(const Request& request) const {
+void SolverParticipant::abort(const Request& request) {
+  requireRun(request);
+  running_ = false;
+}
+
+void SolverParticipant::requireRun(const Request& request) const {
   if (!running_) throw Refusal("no run has been started");
   if (request.key.run != run_) {
     throw Refusal("belongs to run " + std::to_string(request.key.run) + ", not to run " +
                   std::to_string(run_));
   }
+}
+
+void SolverParticipant::requireNextStep(const Request& request) const {
+  requireRun(request);
   if (request.key.step != step_ + 1) {
     throw Refusal("the committed step is " + std::to_string(step_) + ", so only step " +
                   std::to_string(step_ + 1) + " can follow");

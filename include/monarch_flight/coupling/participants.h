@@ -41,6 +41,8 @@ class SolverParticipant : public Participant {
   void start(const Request& request, Reply& reply);
   void iterate(const Request& request, Reply& reply);
   void commit(const Request& request, Reply& reply);
+  void abort(const Request& request);
+  void requireRun(const Request& request) const;
   void requireNextStep(const Request& request) const;
 
   Role role_;

@@ -1,0 +1,97 @@
+// The coordinator's vector of unknowns, and the diagnosis in its terms.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "monarch_flight/coupling/coordinator.h"
+#include "monarch_flight/flight/flight_solver.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr std::size_t kHistoryShown = 8;  // residuals in the diagnosis of a failure
+constexpr const char* kNames[4] = {"x", "z", "theta_B", "theta_R"};
+
+/// The accelerations of x, z, theta_B, theta_R.
+std::array<double, 4> accelerations(const Interface& interface) {
+  return {interface.body.a.x(), interface.body.a.z(), interface.body.pitch.qdd,
+          interface.theta_R.qdd};
+}
+
+double relative(double change, double scale) { return change == 0.0 ? 0.0 : change / scale; }
+
+}  // namespace
+
+CouplingVector Coordinator::increments(const Interface& interface) const {
+  const std::array<double, 4> a = accelerations(interface);
+  CouplingVector d(model_.free.count());
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (free_[i]) d(next++) = a[i] / scales_[i];
+  }
+  return d;
+}
+
+CouplingVector Coordinator::predictedIncrements() const {
+  switch (levels_) {
+    case 1:
+      return history_[0];
+    case 2:
+      return 2.0 * history_[0] - history_[1];
+    default:
+      return 3.0 * (history_[0] - history_[1]) + history_[2];
+  }
+}
+
+Interface Coordinator::guess(const CouplingVector& increments, const Interface& prescribed) const {
+  const std::array<double, 4> d = named(increments);
+  const Eigen::Vector3d body(d[0] * scales_[0], d[1] * scales_[1], d[2] * scales_[2]);
+  Interface next = prescribed;
+  next.body = advancedBody(committed_.body, prescribed.body, model_.free, model_.newmark, body);
+  if (free_[3]) next.theta_R = model_.newmark.advance(committed_.theta_R, d[3] * scales_[3]);
+  return next;
+}
+
+std::array<double, 4> Coordinator::named(const CouplingVector& increments) const {
+  std::array<double, 4> values{};
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (free_[i]) values[i] = increments(next++);
+  }
+  return values;
+}
+
+double Coordinator::loadChange(const Loads& loads, const Loads& previous) const {
+  const double force = (loads.force() - previous.force()).norm();
+  const double moment = (loads.moment() - previous.moment()).norm();
+  return std::max(relative(force, std::max(force_scale_, loads.force().norm())),
+                  relative(moment, std::max(moment_scale_, loads.moment().norm())));
+}
+
+std::string Coordinator::notConverged(const CommittedStep& step) const {
+  const std::vector<IterationRecord>& all = step.iterations;
+  std::ostringstream text;
+  text << "step " << step.step << " (t = " << step.t << " s) did not converge in " << all.size()
+       << " sub-iterations, the second half of them with smaller relaxation; last residuals:";
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double residual = std::abs(all.back().residual[i]);
+    if (!free_[i]) continue;
+    text << ' ' << kNames[i] << ' ' << residual
+         << (residual > settings_.tolerance ? " (too large)" : " (good)") << ',';
+  }
+  text << " loads " << all.back().load_residual
+       << (all.back().load_residual > settings_.load_tolerance ? " (too large)" : " (good)")
+       << "; limits: " << settings_.tolerance << ", loads " << settings_.load_tolerance
+       << "; largest residual of the last sub-iterations:";
+  const std::size_t shown = std::min(all.size(), kHistoryShown);
+  for (std::size_t i = all.size() - shown; i < all.size(); ++i) {
+    double largest = 0.0;
+    for (double residual : all[i].residual) largest = std::max(largest, std::abs(residual));
+    text << ' ' << largest;
+  }
+  text << "; lower coupling/omega_initial and coupling/omega_max, shorten the time step, raise "
+          "coupling/max_sub_iterations, or loosen the tolerance that is not met";
+  return text.str();
+}
+
+}  // namespace monarch_flight
