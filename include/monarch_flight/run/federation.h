@@ -1,7 +1,9 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <vector>
 
+#include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/run/case.h"
 
@@ -9,6 +11,8 @@ namespace monarch_flight {
 
 /// The flow model that the case names, started by the participant's START request.
 std::unique_ptr<FluidModel> makeFluid(const Case& c);
+/// What coordinator and participants need to know of the case.
+CoupledModel makeModel(const Case& c);
 /// The in-process participant for a role; the ROS nodes wrap exactly these.
 std::unique_ptr<Participant> makeParticipant(Role role, const Case& c);
 
@@ -20,7 +24,21 @@ struct RunResult {
 
 /// Runs the coupled loop of the whole case over three participants and feeds the sinks.
 /// `stop` is polled between sub-iterations (SIGINT). Never throws for a failed run: see RunResult.
+/// A sink that throws in onStep ends the run with its message; one that throws in onEnd makes it
+/// failed, and the sinks behind it are ended with that failure.
 RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
                   Participant& wing, const std::vector<StepSink*>& sinks, const bool& stop);
+
+/// Fluid, flight and wing of a case in one process, without ROS.
+class InProcessFederation {
+ public:
+  explicit InProcessFederation(const Case& c);
+  RunResult run(std::uint64_t run_id, const std::vector<StepSink*>& sinks, const bool& stop);
+  Participant& participant(Role role) { return *participants_[static_cast<int>(role)]; }
+
+ private:
+  Case case_;
+  std::array<std::unique_ptr<Participant>, 3> participants_;
+};
 
 }  // namespace monarch_flight

@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "monarch_flight/run/case.h"
+#include "monarch_flight/run/state_hash.h"
+
+namespace monarch_flight {
+
+/// Smallest, mean and largest of a quantity over the committed steps.
+struct Range {
+  double min = 0.0, max = 0.0, sum = 0.0;
+  std::uint64_t count = 0;
+  void add(double value);
+  double mean() const { return count ? sum / static_cast<double>(count) : 0.0; }
+};
+
+/// What summary.json says of a run, gathered step by step.
+///
+/// Climb angle and speed: of the mean velocity from level 0 over all whole flaps flown
+/// (displacement over time); over the whole run while less than a flap is flown or the motion has
+/// no period. The angle is atan2(up, horizontal). Sub-iterations: of the solved steps; of all steps
+/// where none was solved.
+class Summary {
+ public:
+  explicit Summary(const Case& c);
+  void add(const CommittedStep& step);
+  /// The text of summary.json; `failure` is empty after a complete run.
+  std::string json(const std::string& failure) const;
+
+ private:
+  Eigen::Vector3d meanVelocity() const;
+  double climbAngleDegrees() const;
+  const Range& subIterations() const;
+  double flaps() const;
+  double wallSeconds() const;
+
+  std::string name_, case_sha256_;
+  TimeGrid time_;
+  std::chrono::steady_clock::time_point begin_;
+  std::uint32_t steps_ = 0, unconverged_ = 0;
+  std::uint64_t whole_flaps_ = 0;
+  double t_first_ = 0.0, t_last_ = 0.0;  // of the mean velocity
+  Eigen::Vector3d x_first_ = Eigen::Vector3d::Zero(), x_last_ = Eigen::Vector3d::Zero();
+  Range theta_B_, theta_R_, solved_, all_;
+  std::array<double, 3> wall_{};
+  double exchange_ = 0.0;
+  long cells_ = 0;
+  Matrix6d added_mass_ = Matrix6d::Zero();
+  StateHash hash_;
+};
+
+}  // namespace monarch_flight

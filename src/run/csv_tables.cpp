@@ -1,0 +1,94 @@
+#include "monarch_flight/run/csv_tables.h"
+
+#include <cstdio>
+
+namespace monarch_flight {
+namespace {
+
+void put(std::string& row, double value) {
+  char text[32];
+  const int n = std::snprintf(text, sizeof text, "%.17g,", value);
+  row.append(text, static_cast<std::size_t>(n));
+}
+
+void put(std::string& row, const Eigen::Vector3d& v) {
+  for (int i = 0; i < 3; ++i) put(row, v[i]);
+}
+
+void put(std::string& row, const Coordinate& c) {
+  put(row, c.q);
+  put(row, c.qd);
+  put(row, c.qdd);
+}
+
+void putInteger(std::string& row, unsigned long value) { row += std::to_string(value) + ","; }
+
+void endRow(std::string& row) { row.back() = '\n'; }
+
+}  // namespace
+
+const std::string& FlightTable::header() {
+  static const std::string names =
+      "t,x,y,z,vx,vy,vz,ax,ay,az,theta_B,theta_B_dot,theta_B_ddot,qw,qx,qy,qz,"
+      "phi,psi,theta_R,theta_R_dot,theta_R_ddot,theta_A,fx,fy,fz,mx,my,mz,"
+      "fx_p,fy_p,fz_p,mx_p,my_p,mz_p,FX,FY,FZ,sub_iterations,courant";
+  return names;
+}
+
+FlightTable::FlightTable(const std::string& path) : file_(path) { file_.write(header() + "\n"); }
+
+void FlightTable::append(const CommittedStep& step) {
+  const BodyState& body = step.interface.body;
+  Eigen::Quaterniond q(body.R_IB);
+  if (q.dot(last_) < 0.0) q.coeffs() *= -1.0;
+  last_ = q;
+
+  row_.clear();
+  put(row_, step.t);
+  put(row_, body.x);
+  put(row_, body.v);
+  put(row_, body.a);
+  put(row_, body.pitch);
+  for (double component : {q.w(), q.x(), q.y(), q.z()}) put(row_, component);
+  put(row_, step.angles.phi.q);
+  put(row_, step.angles.psi.q);
+  put(row_, step.interface.theta_R);
+  put(row_, step.angles.theta_A.q);
+  put(row_, step.loads.force());
+  put(row_, step.loads.moment());
+  put(row_, step.loads.force_pressure);
+  put(row_, step.loads.moment_pressure);
+  put(row_, step.force_I);
+  putInteger(row_, step.iterations.size());
+  put(row_, step.fluid.courant);
+  endRow(row_);
+  file_.write(row_);
+}
+
+const std::string& IterationTable::header() {
+  static const std::string names =
+      "step,iteration,t,residual_x,residual_z,residual_theta_B,residual_theta_R,load_residual,"
+      "relaxation,fluid_wall_s";
+  return names;
+}
+
+IterationTable::IterationTable(const std::string& path) : file_(path) {
+  file_.write(header() + "\n");
+}
+
+void IterationTable::append(const CommittedStep& step) {
+  rows_.clear();
+  for (const IterationRecord& record : step.iterations) {
+    putInteger(rows_, record.step);
+    putInteger(rows_, record.iteration);
+    put(rows_, step.t);
+    for (double residual : record.residual) put(rows_, residual);
+    put(rows_, record.load_residual);
+    put(rows_, record.relaxation);
+    put(rows_, record.fluid_wall_s);
+    endRow(rows_);
+  }
+  file_.write(rows_);
+}
+
+}  // namespace monarch_flight

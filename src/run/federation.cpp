@@ -1,0 +1,112 @@
+#include "monarch_flight/run/federation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "monarch_flight/coupling/coordinator.h"
+#include "monarch_flight/coupling/participants.h"
+#include "monarch_flight/fluid/navier_stokes.h"
+#include "monarch_flight/fluid/quasi_steady.h"
+
+namespace monarch_flight {
+namespace {
+
+// Ends its sinks in order; the failure of one is told to those behind it.
+class SinkChain : public StepSink {
+ public:
+  explicit SinkChain(const std::vector<StepSink*>& sinks) : sinks_(sinks) {}
+
+  void onStep(const CommittedStep& step) override {
+    for (StepSink* sink : sinks_) sink->onStep(step);
+  }
+
+  void onEnd(const std::string& failure) override {
+    failure_ = failure;
+    for (StepSink* sink : sinks_) {
+      try {
+        sink->onEnd(failure_);
+      } catch (const std::exception& e) {
+        const std::string what = e.what();
+        const bool told = what.find(failure_) != std::string::npos;
+        failure_ = told ? what : failure_ + "; " + what;
+      }
+    }
+  }
+
+  const std::string& failure() const { return failure_; }
+
+ private:
+  std::vector<StepSink*> sinks_;
+  std::string failure_;
+};
+
+// A tenth of (fastest prescribed speed of the wing's tip / mean chord)^2: shows the vortices of the
+// edges.
+double vortexThreshold(const Case& c) {
+  constexpr int kSamples = 50;
+  const double duration = c.time.period > 0.0 ? std::min(c.time.period, c.time.steps * c.time.dt)
+                                              : c.time.steps * c.time.dt;
+  const Eigen::Vector3d tip(0.0, c.insect.planform.yTip(), 0.0);
+  double speed = 0.0;
+  for (int i = 0; i <= kSamples; ++i) {
+    const PrescribedState s = c.motion->at(c.time.t_start + duration * i / kSamples);
+    const WingMotion m = rightWingMotion(c.insect, s.body, s.angles);
+    const Eigen::Vector3d u = m.v_W + m.omega_W.cross(tip) - m.R_IW.transpose() * c.air.wind_I;
+    speed = std::max(speed, u.norm());
+  }
+  return 0.1 * std::pow(speed / c.insect.planform.meanChord(), 2);
+}
+
+}  // namespace
+
+std::unique_ptr<FluidModel> makeFluid(const Case& c) {
+  if (c.fluid == FluidKind::kQuasiSteady)
+    return makeQuasiSteady(c.insect.planform, c.air, c.blade_element);
+  return makeNavierStokes(c.insect.planform, c.air, c.grid);
+}
+
+CoupledModel makeModel(const Case& c) {
+  CoupledModel model{c.insect};
+  model.motion = c.motion;
+  model.free = c.free;
+  model.newmark.dt = c.time.dt;
+  model.gravity = c.gravity;
+  model.t_start = c.time.t_start;
+  model.steps = c.time.steps;
+  model.surface_every = c.output.surface_every;
+  model.vortices_every = c.output.vortices_every;
+  model.q_threshold = vortexThreshold(c);
+  return model;
+}
+
+std::unique_ptr<Participant> makeParticipant(Role role, const Case& c) {
+  const CoupledModel model = makeModel(c);
+  if (role == Role::kFluid) return std::make_unique<FluidParticipant>(model, makeFluid(c));
+  if (role == Role::kFlight) return std::make_unique<FlightParticipant>(model);
+  return std::make_unique<WingParticipant>(model);
+}
+
+RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
+                  Participant& wing, const std::vector<StepSink*>& sinks, const bool& stop) {
+  SinkChain chain(sinks);
+  Coordinator coordinator(makeModel(c), c.coupling, fluid, flight, wing, run_id);
+  const CoupledOutcome outcome = coordinator.run({&chain}, stop);
+  RunResult result;
+  result.failure = chain.failure().empty() ? outcome.failure : chain.failure();
+  result.complete = outcome.complete && result.failure.empty();
+  return result;
+}
+
+InProcessFederation::InProcessFederation(const Case& c) : case_(c) {
+  for (Role role : {Role::kFluid, Role::kFlight, Role::kWing})
+    participants_[static_cast<std::size_t>(role)] = makeParticipant(role, c);
+}
+
+RunResult InProcessFederation::run(std::uint64_t run_id, const std::vector<StepSink*>& sinks,
+                                   const bool& stop) {
+  return runCase(case_, run_id, *participants_[0], *participants_[1], *participants_[2], sinks,
+                 stop);
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,57 @@
+#include "monarch_flight/run/run_directory.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "monarch_flight/math/errors.h"
+
+namespace monarch_flight {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string megabytes(std::uint64_t bytes) {
+  return std::to_string((bytes + 999999) / 1000000) + " MB";
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(const std::string& path, std::uint64_t needed_bytes) : path_(path) {
+  std::error_code error;
+  if (fs::exists(path_, error)) {
+    if (!fs::is_directory(path_, error))
+      throw InputError("out = " + path_ +
+                       ": must be a folder, this is a file; choose another out:=");
+    if (!fs::is_empty(path_, error) || error)
+      throw InputError(
+          "out = " + path_ +
+          ": must be a new or an empty folder, so that no earlier flight is overwritten; "
+          "choose another out:= or move that one away");
+  } else {
+    fs::create_directories(path_, error);
+    if (error)
+      throw InputError("out = " + path_ + ": cannot be created (" + error.message() +
+                       "); choose a folder you may write into with out:=");
+  }
+  const fs::space_info space = fs::space(path_, error);
+  if (!error && space.available < needed_bytes)
+    throw InputError(
+        "out = " + path_ + ": its disk has " + megabytes(space.available) +
+        " left, the run may write " + megabytes(needed_bytes) +
+        "; free space, choose another out:=, or write less (record:=false, fewer flaps)");
+}
+
+std::uint64_t estimatedOutputBytes(const Case& c) {
+  constexpr std::uint64_t kRow = 1100, kIterationRows = 10 * 180, kSmallFiles = 100000;
+  constexpr std::uint64_t kBagStep = 20000, kSurface = 400000, kVortices = 800000;
+  const std::uint64_t steps = c.time.steps + std::uint64_t{1};
+  std::uint64_t bytes = kSmallFiles + c.resolved_yaml.size() + steps * (kRow + kIterationRows);
+  if (!c.output.record) return bytes;
+  bytes += steps * kBagStep;
+  if (c.output.surface_every > 0) bytes += (steps / c.output.surface_every + 1) * kSurface;
+  if (c.fluid == FluidKind::kNavierStokes && c.output.vortices_every > 0)
+    bytes += (steps / c.output.vortices_every + 1) * kVortices;
+  return bytes;
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,118 @@
+#include "monarch_flight/run/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace monarch_flight {
+namespace {
+
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+
+using Json = nlohmann::ordered_json;
+
+Json degrees(const Range& range) {
+  return {{"min", range.min * kDegrees},
+          {"mean", range.mean() * kDegrees},
+          {"max", range.max * kDegrees}};
+}
+
+Json matrix(const Matrix6d& M) {
+  Json rows = Json::array();
+  for (int i = 0; i < 6; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < 6; ++j) row.push_back(M(i, j));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace
+
+void Range::add(double value) {
+  min = count ? std::min(min, value) : value;
+  max = count ? std::max(max, value) : value;
+  sum += value;
+  ++count;
+}
+
+Summary::Summary(const Case& c)
+    : name_(c.name),
+      case_sha256_(c.sha256),
+      time_(c.time),
+      begin_(std::chrono::steady_clock::now()) {}
+
+void Summary::add(const CommittedStep& step) {
+  const BodyState& body = step.interface.body;
+  theta_B_.add(body.pitch.q);
+  theta_R_.add(step.interface.theta_R.q);
+  hash_.add(step);
+  for (std::size_t i = 0; i < wall_.size(); ++i) wall_[i] += step.wall_s[i];
+  exchange_ += step.exchange_s;
+  if (step.step == 0) {
+    t_first_ = t_last_ = step.t;
+    x_first_ = x_last_ = body.x;
+    cells_ = step.fluid.cells;
+    added_mass_ = step.fluid.added_mass;
+    return;
+  }
+  steps_ = step.step;
+  unconverged_ += step.converged ? 0 : 1;
+  const double iterations = static_cast<double>(step.iterations.size());
+  all_.add(iterations);
+  if (!step.prescribed) solved_.add(iterations);
+  const auto whole = static_cast<std::uint64_t>(std::floor(flaps() + 1e-9));
+  if (whole > whole_flaps_ || whole == 0) {
+    t_last_ = step.t;
+    x_last_ = body.x;
+  }
+  whole_flaps_ = whole;
+}
+
+double Summary::flaps() const {
+  return time_.period > 0.0 ? steps_ * time_.dt / time_.period : 0.0;
+}
+
+Eigen::Vector3d Summary::meanVelocity() const {
+  if (t_last_ <= t_first_) return Eigen::Vector3d::Zero();
+  return (x_last_ - x_first_) / (t_last_ - t_first_);
+}
+
+double Summary::climbAngleDegrees() const {
+  const Eigen::Vector3d v = meanVelocity();
+  return std::atan2(-v.z(), std::hypot(v.x(), v.y())) * kDegrees;
+}
+
+const Range& Summary::subIterations() const { return solved_.count ? solved_ : all_; }
+
+double Summary::wallSeconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+std::string Summary::json(const std::string& failure) const {
+  Json j;
+  j["status"] = failure.empty() ? "complete" : "failed";
+  j["failure"] = failure;
+  j["case"] = name_;
+  j["case_sha256"] = case_sha256_;
+  j["version"] = MONARCH_FLIGHT_VERSION;
+  j["steps"] = steps_;
+  j["flaps"] = flaps();
+  j["unconverged_steps"] = unconverged_;
+  j["sub_iterations"] = {{"mean", subIterations().mean()}, {"max", subIterations().max}};
+  j["climb_angle_deg"] = climbAngleDegrees();
+  j["speed_m_s"] = meanVelocity().norm();
+  j["theta_B_deg"] = degrees(theta_B_);
+  j["theta_R_deg"] = degrees(theta_R_);
+  j["wall_s"] = {{"total", wallSeconds()},
+                 {"fluid", wall_[0]},
+                 {"flight", wall_[1]},
+                 {"wing", wall_[2]},
+                 {"exchange", exchange_}};
+  j["cells"] = cells_;
+  j["added_mass"] = matrix(added_mass_);
+  j["state_sha256"] = hash_.hex();
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace monarch_flight
