@@ -1,0 +1,59 @@
+# Messages, ros_io and the nodes: everything that knows ROS.
+if(NOT DEFINED PYTHON_EXECUTABLE AND EXISTS /usr/bin/python3)
+  # catkin's tools belong to the system's python, whatever comes first in PATH.
+  set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of catkin and of the message generators")
+endif()
+if(NOT DEFINED Python3_EXECUTABLE AND DEFINED PYTHON_EXECUTABLE)
+  set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE} CACHE FILEPATH "The same, for ament's modules")
+endif()
+
+set(ROS_PACKAGES diagnostic_msgs diagnostic_updater geometry_msgs nav_msgs rosbag roscpp rosgraph_msgs
+  sensor_msgs std_msgs tf2_msgs visualization_msgs)
+find_package(catkin REQUIRED COMPONENTS message_generation ${ROS_PACKAGES})
+
+add_message_files(DIRECTORY msg FILES CouplingKey.msg FlightState.msg Hello.msg InterfaceState.msg
+  IterationTable.msg ParticipantReply.msg ParticipantRequest.msg PressureFacet.msg SubIteration.msg
+  VortexSample.msg WingLoads.msg)
+generate_messages(DEPENDENCIES std_msgs)
+
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES monarch_ros_io ${CORE_LAYERS}
+  CATKIN_DEPENDS message_runtime ${ROS_PACKAGES}
+  DEPENDS EIGEN3)
+
+# Debian compiles ROS with its own C++ standard; -Wpedantic does not apply to its headers.
+set(ROS_INCLUDES ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/include)
+
+file(GLOB ros_sources CONFIGURE_DEPENDS src/ros_io/*.cpp src/viz/*.cpp)
+add_library(monarch_ros_io SHARED ${ros_sources})
+target_include_directories(monarch_ros_io PUBLIC include SYSTEM PUBLIC ${ROS_INCLUDES})
+target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES})
+target_compile_definitions(monarch_ros_io PRIVATE
+  MONARCH_SOURCE_SHARE="${CMAKE_CURRENT_SOURCE_DIR}")
+add_dependencies(monarch_ros_io monarch_flight_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
+
+# One executable per file of src/nodes, named after it; the targets carry a prefix because `fluid`,
+# `flight` and `wing` are also layers.
+file(GLOB node_sources CONFIGURE_DEPENDS src/nodes/*.cpp)
+set(NODE_TARGETS)
+foreach(source ${node_sources})
+  get_filename_component(name ${source} NAME_WE)
+  add_executable(node_${name} ${source})
+  set_target_properties(node_${name} PROPERTIES OUTPUT_NAME ${name} INSTALL_RPATH "$ORIGIN/..")
+  target_link_libraries(node_${name} PRIVATE monarch_ros_io)
+  list(APPEND NODE_TARGETS node_${name})
+endforeach()
+add_custom_target(nodes DEPENDS ${NODE_TARGETS})
+
+set_target_properties(monarch_ros_io ${CORE_LAYERS} PROPERTIES INSTALL_RPATH "$ORIGIN")
+install(TARGETS monarch_ros_io ${CORE_LAYERS}
+  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+install(TARGETS ${NODE_TARGETS} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY include/monarch_flight/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
+  FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY config launch rviz urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+
+if(MONARCH_TESTS)
+  include(cmake/ros_tests.cmake)
+endif()

@@ -1,0 +1,24 @@
+# ROS tests: one gtest per file test/ros/*_test.cpp, each with a master of its own on a free port and a
+# time limit; python checks test/ros/*_check.py likewise. `ctest -L ros` runs them.
+find_package(GTest REQUIRED)
+find_package(tf2 REQUIRED)
+set(ROS_TEST_RUNNER ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/with_master.py)
+set(ROS_TEST_ENVIRONMENT "OPENBLAS_NUM_THREADS=1"
+  "PYTHONPATH=${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION}:$ENV{PYTHONPATH}")
+
+file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
+foreach(source ${ros_tests})
+  get_filename_component(name ${source} NAME_WE)
+  add_executable(ros_${name} ${source})
+  target_link_libraries(ros_${name} PRIVATE monarch_ros_io ${tf2_LIBRARIES} GTest::gtest)
+  target_include_directories(ros_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)
+  target_compile_definitions(ros_${name} PRIVATE
+    NODE_DIR="${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}"
+    CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config"
+    URDF_DIR="${CMAKE_CURRENT_SOURCE_DIR}/urdf")
+  add_dependencies(ros_${name} nodes)
+  add_test(NAME ros_${name}
+    COMMAND ${PYTHON_EXECUTABLE} ${ROS_TEST_RUNNER} --limit 170 $<TARGET_FILE:ros_${name}>)
+  set_tests_properties(ros_${name} PROPERTIES TIMEOUT 180 LABELS ros
+    ENVIRONMENT "${ROS_TEST_ENVIRONMENT}")
+endforeach()

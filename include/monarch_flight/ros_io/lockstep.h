@@ -1,0 +1,94 @@
+#pragma once
+#include <monarch_flight/Hello.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <cstdint>
+#include <set>
+#include <string>
+
+#include "monarch_flight/coupling/participant.h"
+
+namespace monarch_flight {
+
+/// What both ends of a lockstep connection must agree on.
+struct LockstepIdentity {
+  Role role = Role::kFluid;  ///< of the solver at the participant's end
+  std::string case_name;     ///< for messages
+  std::string case_sha256;   ///< of the resolved case, hex
+};
+
+/// Wall-clock limits [s]; every wait of the protocol ends by one of them.
+struct LockstepLimits {
+  double connect_s = 60.0;   ///< handshake: both directions connected and agreed
+  double exchange_s = 60.0;  ///< one request until its reply (the watchdog)
+  double start_s = 600.0;    ///< the same for START, which builds and factorises the grid
+  double silence_s = 180.0;  ///< participant: between two requests
+};
+
+/// Limits that follow from the watchdog of a case: START may take ten times as long as an exchange; a
+/// participant bears the silence of two exchanges (START: two STARTs) with the other two and one more.
+LockstepLimits limitsFor(double watchdog_s);
+
+/// What one end has seen and ignored.
+struct LockstepCounters {
+  std::uint64_t late = 0;       ///< of this run, but of an exchange that is over
+  std::uint64_t repeated = 0;   ///< the same message again
+  std::uint64_t foreign = 0;    ///< of another run
+  std::uint64_t malformed = 0;  ///< wrong protocol version or unknown phase
+  std::string describe() const;
+  bool any() const { return late + repeated + foreign + malformed > 0; }
+};
+
+/// Depth of every queue of the protocol; nothing is lost while at most this many messages wait.
+constexpr std::uint32_t kLockstepQueue = 8;
+
+/// Hello of this node; `run` is 0 only before the coordinator's number is known.
+Hello makeHello(const LockstepIdentity& identity, std::uint64_t run, const std::string& refusal = "");
+/// Why `other` does not fit (protocol, role, case), naming both values; empty when it fits.
+std::string disagreement(const LockstepIdentity& own, const Hello& other);
+
+/// A publisher that knows by name who listens: a killed listener is noticed at once, whoever else
+/// (a recorder, rostopic) listens too. Callbacks run on `queue`.
+template <class Message>
+class WatchedPublisher {
+ public:
+  WatchedPublisher(ros::NodeHandle& node, const std::string& topic, bool latch,
+                   ros::CallbackQueue& queue) {
+    const auto joined = [this](const ros::SingleSubscriberPublisher& s) {
+      listeners_.insert(s.getSubscriberName());
+    };
+    const auto left = [this](const ros::SingleSubscriberPublisher& s) {
+      const auto found = listeners_.find(s.getSubscriberName());
+      if (found != listeners_.end()) listeners_.erase(found);
+    };
+    auto options = ros::AdvertiseOptions::create<Message>(topic, kLockstepQueue, joined, left,
+                                                          ros::VoidConstPtr(), &queue);
+    options.latch = latch;
+    publisher_ = node.advertise(options);
+  }
+  void publish(const Message& message) const { publisher_.publish(message); }
+  bool heardBy(const std::string& node) const { return listeners_.count(node) > 0; }
+
+ private:
+  std::multiset<std::string> listeners_;
+  ros::Publisher publisher_;
+};
+
+/// Subscribes on `queue` without Nagle's delay.
+template <class Message, class Object>
+ros::Subscriber subscribeOn(ros::CallbackQueue& queue, ros::NodeHandle& node,
+                            const std::string& topic,
+                            void (Object::*callback)(const boost::shared_ptr<Message const>&),
+                            Object* object) {
+  ros::SubscribeOptions options;
+  options.template init<Message>(topic, kLockstepQueue,
+                                 [object, callback](const boost::shared_ptr<Message const>& m) {
+                                   (object->*callback)(m);
+                                 });
+  options.callback_queue = &queue;
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  return node.subscribe(options);
+}
+
+}  // namespace monarch_flight

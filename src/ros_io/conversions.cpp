@@ -1,0 +1,217 @@
+#include "monarch_flight/ros_io/conversions.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace monarch_flight {
+namespace {
+
+using Array3 = boost::array<double, 3>;
+using Array9 = boost::array<double, 9>;
+
+Array3 array(const Eigen::Vector3d& v) { return {{v.x(), v.y(), v.z()}}; }
+Array3 array(const Coordinate& c) { return {{c.q, c.qd, c.qdd}}; }
+Eigen::Vector3d vector(const Array3& a) { return {a[0], a[1], a[2]}; }
+Coordinate coordinate(const Array3& a) { return {a[0], a[1], a[2]}; }
+
+Array9 rowByRow(const Eigen::Matrix3d& R) {
+  Array9 out;
+  for (int i = 0; i < 9; ++i) out[i] = R(i / 3, i % 3);
+  return out;
+}
+
+Eigen::Matrix3d matrix(const Array9& rows) {
+  Eigen::Matrix3d R;
+  for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = rows[i];
+  return R;
+}
+
+bool finite(const Coordinate& c) {
+  return std::isfinite(c.q) && std::isfinite(c.qd) && std::isfinite(c.qdd);
+}
+
+std::string problem(std::uint32_t protocol, const CouplingKey& key) {
+  if (protocol != kProtocolVersion) {
+    return "protocol version " + std::to_string(protocol) + " instead of " +
+           std::to_string(kProtocolVersion);
+  }
+  if (key.phase > CouplingKey::ABORT) return "unknown phase " + std::to_string(key.phase);
+  return "";
+}
+
+}  // namespace
+
+CouplingKey toMessage(const ExchangeKey& key) {
+  CouplingKey out;
+  out.run = key.run;
+  out.step = key.step;
+  out.iteration = key.iteration;
+  out.phase = static_cast<std::uint8_t>(key.phase);
+  return out;
+}
+
+ExchangeKey fromMessage(const CouplingKey& key) {
+  return {key.run, key.step, key.iteration, static_cast<Phase>(key.phase)};
+}
+
+InterfaceState toMessage(const Interface& interface) {
+  const BodyState& body = interface.body;
+  InterfaceState out;
+  out.position = array(body.x);
+  out.velocity = array(body.v);
+  out.acceleration = array(body.a);
+  out.attitude = rowByRow(body.R_IB);
+  out.angular_velocity = array(body.Omega_B);
+  out.angular_acceleration = array(body.Omega_dot_B);
+  out.theta_b = array(body.pitch);
+  out.theta_r = array(interface.theta_R);
+  return out;
+}
+
+Interface fromMessage(const InterfaceState& interface) {
+  Interface out;
+  out.body.x = vector(interface.position);
+  out.body.v = vector(interface.velocity);
+  out.body.a = vector(interface.acceleration);
+  out.body.R_IB = matrix(interface.attitude);
+  out.body.Omega_B = vector(interface.angular_velocity);
+  out.body.Omega_dot_B = vector(interface.angular_acceleration);
+  out.body.pitch = coordinate(interface.theta_b);
+  out.theta_R = coordinate(interface.theta_r);
+  return out;
+}
+
+WingLoads toMessage(const Loads& loads) {
+  WingLoads out;
+  out.force_pressure = array(loads.force_pressure);
+  out.force_friction = array(loads.force_friction);
+  out.moment_pressure = array(loads.moment_pressure);
+  out.moment_friction = array(loads.moment_friction);
+  return out;
+}
+
+Loads fromMessage(const WingLoads& loads) {
+  Loads out;
+  out.force_pressure = vector(loads.force_pressure);
+  out.force_friction = vector(loads.force_friction);
+  out.moment_pressure = vector(loads.moment_pressure);
+  out.moment_friction = vector(loads.moment_friction);
+  return out;
+}
+
+ParticipantRequest toMessage(const Request& request) {
+  ParticipantRequest out;
+  out.protocol = kProtocolVersion;
+  out.key = toMessage(request.key);
+  out.t = request.t;
+  out.interface = toMessage(request.interface);
+  out.loads = toMessage(request.loads);
+  out.want_fields = request.want_fields;
+  return out;
+}
+
+Request fromMessage(const ParticipantRequest& request) {
+  Request out;
+  out.key = fromMessage(request.key);
+  out.t = request.t;
+  out.interface = fromMessage(request.interface);
+  out.loads = fromMessage(request.loads);
+  out.want_fields = request.want_fields;
+  return out;
+}
+
+ParticipantReply toMessage(const Reply& reply) {
+  ParticipantReply out;
+  out.protocol = kProtocolVersion;
+  out.key = toMessage(reply.key);
+  out.interface = toMessage(reply.interface);
+  out.loads = toMessage(reply.loads);
+  out.courant = reply.report.courant;
+  out.divergence = reply.report.divergence;
+  out.wall_s = reply.wall_s;
+  out.error = reply.error;
+  out.surface.reserve(reply.surface.facets.size());
+  for (const SurfacePressure::Facet& f : reply.surface.facets) {
+    PressureFacet facet;
+    facet.x = f.x;
+    facet.y = f.y;
+    facet.dx = f.dx;
+    facet.dy = f.dy;
+    facet.p_upper = f.p_upper;
+    facet.p_lower = f.p_lower;
+    out.surface.push_back(facet);
+  }
+  out.vortices.reserve(reply.vortices.size());
+  for (const VortexPoint& v : reply.vortices) {
+    VortexSample sample;
+    sample.x = v.x;
+    sample.y = v.y;
+    sample.z = v.z;
+    sample.q = v.q;
+    sample.omega_y = v.omega_y;
+    out.vortices.push_back(sample);
+  }
+  return out;
+}
+
+Reply fromMessage(const ParticipantReply& reply) {
+  Reply out;
+  out.key = fromMessage(reply.key);
+  out.interface = fromMessage(reply.interface);
+  out.loads = fromMessage(reply.loads);
+  out.report.courant = reply.courant;
+  out.report.divergence = reply.divergence;
+  out.wall_s = reply.wall_s;
+  out.error = reply.error;
+  out.surface.facets.reserve(reply.surface.size());
+  for (const PressureFacet& f : reply.surface) {
+    out.surface.facets.push_back({f.x, f.y, f.dx, f.dy, f.p_upper, f.p_lower});
+  }
+  out.vortices.reserve(reply.vortices.size());
+  for (const VortexSample& v : reply.vortices) {
+    out.vortices.push_back({v.x, v.y, v.z, v.q, v.omega_y});
+  }
+  return out;
+}
+
+SubIteration toMessage(const IterationRecord& record) {
+  SubIteration out;
+  out.step = record.step;
+  out.iteration = record.iteration;
+  std::copy(record.residual.begin(), record.residual.end(), out.residual.begin());
+  out.load_residual = record.load_residual;
+  out.relaxation = record.relaxation;
+  out.fluid_wall_s = record.fluid_wall_s;
+  return out;
+}
+
+IterationRecord fromMessage(const SubIteration& record) {
+  IterationRecord out;
+  out.step = record.step;
+  out.iteration = record.iteration;
+  std::copy(record.residual.begin(), record.residual.end(), out.residual.begin());
+  out.load_residual = record.load_residual;
+  out.relaxation = record.relaxation;
+  out.fluid_wall_s = record.fluid_wall_s;
+  return out;
+}
+
+std::string problem(const ParticipantRequest& request) {
+  return problem(request.protocol, request.key);
+}
+
+std::string problem(const ParticipantReply& reply) { return problem(reply.protocol, reply.key); }
+
+bool finite(const Interface& interface) {
+  const BodyState& body = interface.body;
+  return body.x.allFinite() && body.v.allFinite() && body.a.allFinite() && body.R_IB.allFinite() &&
+         body.Omega_B.allFinite() && body.Omega_dot_B.allFinite() && finite(body.pitch) &&
+         finite(interface.theta_R);
+}
+
+std::string describe(const ExchangeKey& key) {
+  return "step " + std::to_string(key.step) + ", sub-iteration " + std::to_string(key.iteration) +
+         ", " + phaseName(key.phase);
+}
+
+}  // namespace monarch_flight

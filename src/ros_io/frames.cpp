@@ -1,0 +1,87 @@
+#include "monarch_flight/ros_io/frames.h"
+
+#include "monarch_flight/math/rotation.h"
+
+namespace monarch_flight {
+namespace {
+
+geometry_msgs::TransformStamped transform(const char* parent, const char* child,
+                                          const Eigen::Vector3d& origin, const Eigen::Matrix3d& R,
+                                          const ros::Time& stamp) {
+  geometry_msgs::TransformStamped out;
+  out.header.stamp = stamp;
+  out.header.frame_id = parent;
+  out.child_frame_id = child;
+  out.transform.translation = toVector3(origin);
+  out.transform.rotation = toQuaternion(R);
+  return out;
+}
+
+}  // namespace
+
+Eigen::Matrix3d nedToEnu() {
+  Eigen::Matrix3d R;
+  R << 0, 1, 0, 1, 0, 0, 0, 0, -1;
+  return R;
+}
+
+Eigen::Matrix3d frdToFlu() { return Eigen::Vector3d(1, -1, -1).asDiagonal(); }
+
+Eigen::Matrix3d baseLinkAttitude(const BodyState& body) {
+  return nedToEnu() * body.R_IB * frdToFlu();
+}
+
+geometry_msgs::Quaternion toQuaternion(const Eigen::Matrix3d& R) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond(R).normalized();
+  geometry_msgs::Quaternion out;
+  out.x = q.x();
+  out.y = q.y();
+  out.z = q.z();
+  out.w = q.w();
+  return out;
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& v) {
+  geometry_msgs::Point out;
+  out.x = v.x();
+  out.y = v.y();
+  out.z = v.z();
+  return out;
+}
+
+geometry_msgs::Vector3 toVector3(const Eigen::Vector3d& v) {
+  geometry_msgs::Vector3 out;
+  out.x = v.x();
+  out.y = v.y();
+  out.z = v.z();
+  return out;
+}
+
+std::vector<geometry_msgs::TransformStamped> staticTransforms(const Insect& insect,
+                                                              const ros::Time& stamp) {
+  const Eigen::Vector3d here = Eigen::Vector3d::Zero();
+  return {transform(frames::kWorld, frames::kWorldNed, here, nedToEnu(), stamp),
+          transform(frames::kBaseLink, frames::kBodyFrd, here, frdToFlu(), stamp),
+          transform(frames::kBodyFrd, frames::kStrokePlane, here, rotationY(insect.beta), stamp)};
+}
+
+std::vector<geometry_msgs::TransformStamped> movingTransforms(const Insect& insect,
+                                                              const BodyState& body,
+                                                              const JointAngles& angles,
+                                                              const ros::Time& stamp) {
+  const Eigen::Matrix3d R_SB = rotationY(insect.beta).transpose();  // body to stroke plane
+  std::vector<geometry_msgs::TransformStamped> out;
+  out.reserve(4);
+  out.push_back(transform(frames::kWorld, frames::kBaseLink, nedToEnu() * body.x,
+                          baseLinkAttitude(body), stamp));
+  out.push_back(transform(frames::kStrokePlane, frames::kRightWing, R_SB * insect.right.mu,
+                          R_SB * wingAttitude(insect.beta, angles), stamp));
+  if (insect.bare_wing) return out;
+  out.push_back(transform(frames::kStrokePlane, frames::kLeftWing, R_SB * insect.left.mu,
+                          R_SB * leftWingAttitude(insect.beta, angles), stamp));
+  out.push_back(transform(frames::kBodyFrd, frames::kAbdomen, insect.abdomen.mu,
+                          abdomenAttitude(angles), stamp));
+  return out;
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,138 @@
+#include "monarch_flight/ros_io/lockstep_server.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "monarch_flight/ros_io/conversions.h"
+
+namespace monarch_flight {
+namespace {
+
+// Longest uninterrupted wait: an interrupt or a deadline is noticed within it.
+const ros::WallDuration kSlice(0.1);
+
+// Requests of a run come in this order.
+std::tuple<std::uint32_t, std::uint8_t, std::uint32_t> order(const CouplingKey& key) {
+  return std::make_tuple(key.step, key.phase, key.iteration);
+}
+
+std::string seconds(double s) {
+  std::string text = std::to_string(s);
+  return text.substr(0, text.find('.') + 2) + " s";
+}
+
+}  // namespace
+
+LockstepServer::LockstepServer(const ros::NodeHandle& node, const LockstepIdentity& identity,
+                               Participant& participant, const LockstepLimits& limits,
+                               const bool& stop)
+    : identity_(identity),
+      participant_(participant),
+      limits_(limits),
+      stop_(stop),
+      node_(node, roleName(identity.role)),
+      hello_out_(node_, "hello", true, queue_),
+      replies_(node_, "reply", false, queue_),
+      hello_in_(subscribeOn(queue_, node_, "coordinator_hello", &LockstepServer::onHello, this)),
+      requests_(subscribeOn(queue_, node_, "request", &LockstepServer::onRequest, this)) {}
+
+bool LockstepServer::coordinatorListens() const {
+  return coordinator_ && replies_.heardBy(coordinator_->node);
+}
+
+void LockstepServer::serve() {
+  waitForCoordinator();
+  if (!refusal_.empty()) refuse();
+  last_heard_ = ros::WallTime::now();
+  while (!ended_) {
+    queue_.callAvailable(kSlice);
+    if (ended_) return;
+    if (stop_ || !ros::ok()) throw ExchangeError("interrupted");
+    if (!coordinatorListens()) {
+      throw ExchangeError("the coordinator (" + coordinator_->node +
+                          ") is lost: its connection closed");
+    }
+    const double limit = iterating_ ? limits_.silence_s : limits_.silence_s + 2.0 * limits_.start_s;
+    if (ros::WallTime::now() > last_heard_ + ros::WallDuration(limit)) {
+      throw ExchangeError("the coordinator (" + coordinator_->node + ") has been silent for " +
+                          seconds(limit));
+    }
+  }
+}
+
+void LockstepServer::waitForCoordinator() {
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(limits_.connect_s);
+  while (!coordinatorListens()) {
+    queue_.callAvailable(kSlice);
+    if (!refusal_.empty()) refuse();
+    if (stop_ || !ros::ok()) throw ExchangeError("interrupted while waiting for the coordinator");
+    if (ros::WallTime::now() > deadline) {
+      throw ExchangeError("no coordinator appeared within " + seconds(limits_.connect_s) +
+                          ": is it running, in the same namespace of this master?");
+    }
+  }
+}
+
+void LockstepServer::onHello(const HelloConstPtr& hello) {
+  if (started_) {
+    ++(hello->run == coordinator_->run ? counters_.repeated : counters_.foreign);
+    return;
+  }
+  coordinator_ = hello;
+  refusal_ = disagreement(identity_, *hello);
+  hello_out_.publish(makeHello(identity_, hello->run, refusal_));
+}
+
+void LockstepServer::refuse() {
+  // The latched refusal is delivered to whoever connects; leave once the coordinator has had it.
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(2.0);
+  while (!hello_out_.heardBy(coordinator_->node) && ros::WallTime::now() < deadline && !stop_) {
+    queue_.callAvailable(ros::WallDuration(0.05));
+  }
+  ros::WallDuration(0.3).sleep();
+  throw ExchangeError("handshake refused: " + refusal_);
+}
+
+Reply LockstepServer::answer(const Request& request) {
+  try {
+    return participant_.exchange(request);
+  } catch (const std::exception& e) {
+    Reply failed;
+    failed.error = e.what();
+    return failed;
+  }
+}
+
+void LockstepServer::onRequest(const ParticipantRequestConstPtr& request) {
+  const CouplingKey& key = request->key;
+  if (!problem(*request).empty()) {
+    ++counters_.malformed;
+    return;
+  }
+  if (!coordinator_ || key.run != coordinator_->run) {
+    ++counters_.foreign;
+    return;
+  }
+  last_heard_ = ros::WallTime::now();
+  if (key.phase == CouplingKey::ABORT) {
+    ended_ = true;
+    replies_.publish(toMessage(answer(fromMessage(*request))));
+    return;
+  }
+  if (started_ && order(key) < order(cache_.key)) {
+    ++counters_.late;
+    return;
+  }
+  if (started_ && order(key) == order(cache_.key)) {
+    ++counters_.repeated;
+  } else {
+    cache_ = toMessage(answer(fromMessage(*request)));
+    cache_.key = key;
+    started_ = true;
+    iterating_ = iterating_ || key.phase != CouplingKey::START;
+    last_heard_ = ros::WallTime::now();
+  }
+  replies_.publish(cache_);
+}
+
+}  // namespace monarch_flight

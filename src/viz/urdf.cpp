@@ -1,0 +1,131 @@
+#include "monarch_flight/viz/urdf.h"
+
+#include <cmath>
+#include <cstdarg>
+#include <filesystem>
+#include <fstream>
+
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/viz/mesh.h"
+
+namespace monarch_flight {
+namespace {
+
+std::string format(const char* text, ...) {
+  char out[512];
+  va_list arguments;
+  va_start(arguments, text);
+  std::vsnprintf(out, sizeof(out), text, arguments);
+  va_end(arguments);
+  return out;
+}
+
+std::string xyz(const Eigen::Vector3d& v) { return format("%.9g %.9g %.9g", v.x(), v.y(), v.z()); }
+
+// Mass, its centre and the inertia about the centre; J is about the link's origin.
+std::string inertial(double m, const Eigen::Vector3d& nu, const Eigen::Matrix3d& J) {
+  const Eigen::Matrix3d C =
+      J - m * (nu.squaredNorm() * Eigen::Matrix3d::Identity() - nu * nu.transpose());
+  return "    <inertial>\n      <origin xyz=\"" + xyz(nu) + "\"/>\n" +
+         format("      <mass value=\"%.9g\"/>\n", m) +
+         format("      <inertia ixx=\"%.9g\" ixy=\"%.9g\" ixz=\"%.9g\" iyy=\"%.9g\" iyz=\"%.9g\" "
+                "izz=\"%.9g\"/>\n",
+                C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2)) +
+         "    </inertial>\n";
+}
+
+std::string link(const std::string& name, const std::string& content = "") {
+  if (content.empty()) return "  <link name=\"" + name + "\"/>\n";
+  return "  <link name=\"" + name + "\">\n" + content + "  </link>\n";
+}
+
+std::string visual(const std::string& mesh, const std::string& material) {
+  return "    <visual>\n      <geometry><mesh filename=\"" + mesh +
+         "\"/></geometry>\n      <material name=\"" + material + "\"/>\n    </visual>\n";
+}
+
+std::string fixed(const std::string& parent, const std::string& child, const Eigen::Vector3d& at,
+                  const Eigen::Vector3d& rpy) {
+  return "  <joint name=\"" + child + "_mount\" type=\"fixed\">\n    <parent link=\"" + parent +
+         "\"/>\n    <child link=\"" + child + "\"/>\n    <origin xyz=\"" + xyz(at) + "\" rpy=\"" +
+         xyz(rpy) + "\"/>\n  </joint>\n";
+}
+
+std::string hinge(const std::string& name, const std::string& parent, const std::string& child,
+                  const Eigen::Vector3d& at, const Eigen::Vector3d& axis) {
+  return "  <joint name=\"" + name + "\" type=\"continuous\">\n    <parent link=\"" + parent +
+         "\"/>\n    <child link=\"" + child + "\"/>\n    <origin xyz=\"" + xyz(at) +
+         "\"/>\n    <axis xyz=\"" + xyz(axis) + "\"/>\n  </joint>\n";
+}
+
+// Shoulder and the three joints of one wing: Q = exp(beta e2) exp(+-phi e1) exp(-+psi e3) exp(theta e2).
+std::string wing(const Insect& insect, bool left, const std::string& mesh_uri) {
+  const Appendage& part = left ? insect.left : insect.right;
+  const std::string side = left ? "left" : "right";
+  const double sign = left ? -1.0 : 1.0;
+  const Eigen::Vector3d here = Eigen::Vector3d::Zero();
+  const std::string shoulder = side + "_shoulder_link", flap = side + "_flap_link",
+                    deviation = side + "_deviation_link", blade = side + "_wing_link";
+  return link(shoulder) + link(flap) + link(deviation) +
+         link(blade, inertial(part.m, part.nu, part.J) +
+                         visual(mesh_uri + side + "_wing.stl", "wing")) +
+         fixed("thorax_link", shoulder, part.mu, {0, insect.beta, 0}) +
+         hinge(side + "_flap", shoulder, flap, here, {sign, 0, 0}) +
+         hinge(side + "_deviation", flap, deviation, here, {0, 0, -sign}) +
+         hinge(side + "_pitch", deviation, blade, here, {0, 1, 0});
+}
+
+void writeFile(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file << bytes;
+  file.close();
+  if (!file) throw InputError("cannot write " + path.string() + ": is there space and permission?");
+}
+
+// Where the abdomen's ellipsoid lies: behind its joint, on the side of its mass centre.
+Eigen::Vector3d abdomenCentre(const Insect& insect) {
+  const double side = insect.abdomen.nu.x() > 0.0 ? 1.0 : -1.0;
+  return {0.5 * side * insect.abdomen_length, 0, 0};
+}
+
+}  // namespace
+
+std::string insectUrdf(const Insect& insect, const std::string& mesh_uri) {
+  const Eigen::Vector3d here = Eigen::Vector3d::Zero();
+  std::string out = "<?xml version=\"1.0\"?>\n<robot name=\"" + insect.name +
+                    "\">\n  <material name=\"wing\"><color rgba=\"0.85 0.45 0.10 1\"/></material>\n"
+                    "  <material name=\"body\"><color rgba=\"0.20 0.17 0.15 1\"/></material>\n" +
+                    link("base_link");
+  const std::string body =
+      insect.bare_wing
+          ? ""
+          : inertial(insect.m_B, here, insect.J_B) + visual(mesh_uri + "thorax.stl", "body");
+  out += link("thorax_link", body) + fixed("base_link", "thorax_link", here, {M_PI, 0, 0});
+  out += wing(insect, false, mesh_uri);
+  if (!insect.bare_wing) {
+    const Appendage& abdomen = insect.abdomen;
+    out += wing(insect, true, mesh_uri);
+    out += link("abdomen_link", inertial(abdomen.m, abdomen.nu, abdomen.J) +
+                                    visual(mesh_uri + "abdomen.stl", "body"));
+    out += hinge(joints::kAbdomen, "thorax_link", "abdomen_link", abdomen.mu, {0, 1, 0});
+  }
+  return out + "</robot>\n";
+}
+
+void writeModel(const Insect& insect, const std::string& directory, const std::string& mesh_uri) {
+  const std::filesystem::path folder(directory);
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  writeFile(folder / "insect.urdf", insectUrdf(insect, mesh_uri));
+  writeFile(folder / "right_wing.stl", stlBytes(wingMesh(insect.planform, false)));
+  if (insect.bare_wing) return;
+  const Eigen::Vector3d here = Eigen::Vector3d::Zero();
+  writeFile(folder / "left_wing.stl", stlBytes(wingMesh(insect.planform, true)));
+  writeFile(folder / "thorax.stl",
+            stlBytes(ellipsoidMesh(here, insect.body_length, insect.body_width)));
+  writeFile(folder / "abdomen.stl",
+            stlBytes(ellipsoidMesh(abdomenCentre(insect), insect.abdomen_length,
+                                   insect.abdomen_width)));
+}
+
+}  // namespace monarch_flight
