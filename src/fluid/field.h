@@ -26,8 +26,9 @@ struct Aligned64 {
 };
 using Array = std::vector<double, Aligned64<double>>;
 
-/// Common storage layout of all staggered fields: x fastest, one layer of ghosts, rows padded so that
-/// i = 0 is aligned. The face (i, j, k) of a component is the lower face of the cell (i, j, k).
+/// Common storage layout of all staggered fields: x fastest, one layer of ghosts, rows padded so
+/// that i = 0 is aligned. The face (i, j, k) of a component is the lower face of the cell (i, j,
+/// k).
 struct Layout {
   int nx, ny, nz;
   std::ptrdiff_t sy, sz;  ///< strides of j and k
@@ -35,7 +36,9 @@ struct Layout {
       : nx(g.x.n()), ny(g.y.n()), nz(g.z.n()), sy((nx + 9 + 7) / 8 * 8), sz(sy * (ny + 3)) {}
   std::ptrdiff_t at(int i, int j, int k) const { return (k + 1) * sz + (j + 1) * sy + i + 8; }
   std::size_t size() const { return static_cast<std::size_t>(sz) * (nz + 3); }
-  std::ptrdiff_t stride(int direction) const { return direction == 0 ? 1 : direction == 1 ? sy : sz; }
+  std::ptrdiff_t stride(int direction) const {
+    return direction == 0 ? 1 : direction == 1 ? sy : sz;
+  }
   int n(int direction) const { return direction == 0 ? nx : direction == 1 ? ny : nz; }
 };
 
@@ -47,7 +50,8 @@ struct Velocity {
   }
 };
 
-/// A function of the wing's plane that is affine in x and y: the velocity of the wall, for every level.
+/// A function of the wing's plane that is affine in x and y: the velocity of the wall, for every
+/// level.
 struct WallVelocity {
   double c0[3] = {0, 0, 0}, cx[3] = {0, 0, 0}, cy[3] = {0, 0, 0};
   double at(int component, double x, double y) const {

@@ -58,7 +58,7 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   level_n_.wall = wallVelocity(level_n_.grid);
   level_m_ = level_n_;
   // Level -1 by the motion's own rates, so that the first extrapolation is of second order too.
-  const Eigen::Vector3d V_dot = motion.a_W - motion.omega_W.cross(motion.v_W);
+  const Eigen::Vector3d V_dot = motion.a_W - motion.omega_W.cross(level_n_.grid.V);
   level_m_.grid.V -= dt * V_dot;
   level_m_.grid.omega -= dt * motion.alpha_W;
   potentialStart();
@@ -122,8 +122,10 @@ double NavierStokes::courant() const {
       for (int i = 0; i < layout_.nx; ++i) {
         if (!grid_.isWing(i, j)) continue;
         const std::ptrdiff_t q = layout_.at(i, j, k);
-        const double cx = std::max(std::abs(convecting_.c[0][q]), std::abs(convecting_.c[0][q + 1]));
-        const double cy = std::max(std::abs(convecting_.c[1][q]), std::abs(convecting_.c[1][q + layout_.sy]));
+        const double cx =
+            std::max(std::abs(convecting_.c[0][q]), std::abs(convecting_.c[0][q + 1]));
+        const double cy =
+            std::max(std::abs(convecting_.c[1][q]), std::abs(convecting_.c[1][q + layout_.sy]));
         worst = std::max({worst, cx / grid_.x.width[i], cy / grid_.y.width[j]});
       }
     }
@@ -131,9 +133,9 @@ double NavierStokes::courant() const {
   return worst * dt_;
 }
 
-/// What a step does before any guess of the interface: (1) predict the grid's motion, (2) turn both old
-/// levels into the predicted axes (this is the Coriolis term, exactly), (3) freeze the convecting field,
-/// (4) all of the momentum step that does not see the wall's new velocity.
+/// What a step does before any guess of the interface: (1) predict the grid's motion, (2) turn both
+/// old levels into the predicted axes (this is the Coriolis term, exactly), (3) freeze the
+/// convecting field, (4) all of the momentum step that does not see the wall's new velocity.
 void NavierStokes::prepareStep() {
   const GridVelocity& n = level_n_.grid;
   const GridVelocity& m = level_m_.grid;
@@ -163,20 +165,23 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   next_.frame = next.R_IW;
   next_.grid = gridVelocity(next, air_.wind_I);
   next_.wall = wallVelocity(next_.grid);
-  momentum_.finish(vn_, convecting_, combined(1, next_.wall, -1, level_n_.wall, 0, next_.wall), v_star_);
+  momentum_.finish(vn_, convecting_, combined(1, next_.wall, -1, level_n_.wall, 0, next_.wall),
+                   v_star_);
   fillOuter(grid_, layout_, predicted_frame_.transpose() * stream_I_, v_star_);
   fillWing(grid_, layout_, next_.wall, v_star_);
 
   netOutflow(grid_, layout_, v_star_, air_.rho / step_.a, phi_.data());
   pressure_.solve(phi_.data());
 
-  acceleration_ = step_.second_order
-                      ? combined(1.5 / dt_, next_.wall, -2 / dt_, level_n_.wall, 0.5 / dt_, level_m_.wall)
-                      : combined(1 / dt_, next_.wall, -1 / dt_, level_n_.wall, 0, next_.wall);
+  acceleration_ =
+      step_.second_order
+          ? combined(1.5 / dt_, next_.wall, -2 / dt_, level_n_.wall, 0.5 / dt_, level_m_.wall)
+          : combined(1 / dt_, next_.wall, -1 / dt_, level_n_.wall, 0, next_.wall);
   Loads loads;
-  pressureLoads(grid_, WingPressure(grid_, layout_, p_.data(), phi_.data()), air_.rho, acceleration_, loads);
-  frictionLoads(grid_, layout_, momentum_, v_star_, phi_.data(), step_.a / air_.rho, next_.wall, air_.mu,
-                loads);
+  pressureLoads(grid_, WingPressure(grid_, layout_, p_.data(), phi_.data()), air_.rho,
+                acceleration_, loads);
+  frictionLoads(grid_, layout_, momentum_, v_star_, phi_.data(), step_.a / air_.rho, next_.wall,
+                air_.mu, loads);
   if (!loads.finite()) throw NumericalError("Navier-Stokes: the loads are not finite");
   evaluated_ = true;
   return loads;
@@ -188,12 +193,13 @@ void NavierStokes::commit() {
   for (int k = 0; k < layout_.nz; ++k) {
     for (int j = 0; j < layout_.ny; ++j) {
       double* p = p_.data() + layout_.at(0, j, k);
-      const double* f = phi_.data() + (static_cast<std::ptrdiff_t>(k) * layout_.ny + j) * layout_.nx;
+      const double* f =
+          phi_.data() + (static_cast<std::ptrdiff_t>(k) * layout_.ny + j) * layout_.nx;
       for (int i = 0; i < layout_.nx; ++i) p[i] += f[i];
     }
   }
-  std::swap(vm_, vn_);       // n becomes n-1
-  std::swap(vn_, v_star_);   // v* has become n
+  std::swap(vm_, vn_);      // n becomes n-1
+  std::swap(vn_, v_star_);  // v* has become n
   level_m_ = level_n_;
   level_n_ = next_;
   ++steps_;

@@ -11,13 +11,14 @@ namespace monarch_flight {
 
 /// One stored time level: the field's axes, the grid's velocity and the wall's, in those axes.
 struct Level {
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< takes the field's components to inertial ones
-  GridVelocity grid;                                     ///< of the grid at that time, in its own axes then
-  WallVelocity wall;                                     ///< resolved in `frame`
+  Eigen::Matrix3d frame =
+      Eigen::Matrix3d::Identity();  ///< takes the field's components to inertial ones
+  GridVelocity grid;                ///< of the grid at that time, in its own axes then
+  WallVelocity wall;                ///< resolved in `frame`
 };
 
-/// Incompressible flow on a grid that is fixed to the wing. Unknown: the absolute velocity (relative to
-/// the wind), resolved in wing axes. Method: docs/fluid.md.
+/// Incompressible flow on a grid that is fixed to the wing. Unknown: the absolute velocity
+/// (relative to the wind), resolved in wing axes. Method: docs/fluid.md.
 class NavierStokes : public FluidModel {
  public:
   NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit);
@@ -36,7 +37,8 @@ class NavierStokes : public FluidModel {
   const Grid& grid() const { return grid_; }
   const Layout& layout() const { return layout_; }
   const Velocity& velocity() const { return vn_; }  ///< committed level n
-  /// Replaces the field at rest by a uniform stream `u_I` (inertial axes), at the outer boundary too.
+  /// Replaces the field at rest by a uniform stream `u_I` (inertial axes), at the outer boundary
+  /// too.
   void setUniformStream(const Eigen::Vector3d& u_I);
 
  private:
@@ -57,9 +59,9 @@ class NavierStokes : public FluidModel {
 
   // committed state
   double dt_ = 0;
-  long steps_ = 0;            ///< committed since start
-  bool prepared_ = false;     ///< levels are turned into the predicted axes of n+1
-  Level level_n_, level_m_;   ///< n and n-1
+  long steps_ = 0;           ///< committed since start
+  bool prepared_ = false;    ///< levels are turned into the predicted axes of n+1
+  Level level_n_, level_m_;  ///< n and n-1
   Velocity vn_, vm_;
   Array p_;
   Eigen::Vector3d stream_I_ = Eigen::Vector3d::Zero();

@@ -98,7 +98,8 @@ SurfacePressure NavierStokes::surfacePressure() const {
       if (!grid_.isWing(i, j)) continue;
       const double x = grid_.x.centre[i], y = grid_.y.centre[j], a_n = acceleration_.at(2, x, y);
       s.facets.push_back({float(x), float(y), float(grid_.x.width[i]), float(grid_.y.width[j]),
-                          float(p.below(i, j, air_.rho, a_n)), float(p.above(i, j, air_.rho, a_n))});
+                          float(p.below(i, j, air_.rho, a_n)),
+                          float(p.above(i, j, air_.rho, a_n))});
     }
   }
   return s;
@@ -120,13 +121,14 @@ std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) c
             const std::ptrdiff_t s = layout_.stride(d);
             const Axis& a = *axes[d];
             g(c, d) = c == d ? (v[s] - v[0]) / a.width[at[d]]
-                             : 0.5 * (v[s] + v[s + sc] - v[-s] - v[-s + sc]) / (a.gap[at[d]] + a.gap[at[d] + 1]);
+                             : 0.5 * (v[s] + v[s + sc] - v[-s] - v[-s + sc]) /
+                                   (a.gap[at[d]] + a.gap[at[d] + 1]);
           }
         }
         const double Q = -0.5 * (g * g).trace();
         if (Q > q_threshold) {
-          points.push_back({float(grid_.x.centre[i]), float(grid_.y.centre[j]), float(grid_.z.centre[k]),
-                            float(Q), float(g(0, 2) - g(2, 0))});
+          points.push_back({float(grid_.x.centre[i]), float(grid_.y.centre[j]),
+                            float(grid_.z.centre[k]), float(Q), float(g(0, 2) - g(2, 0))});
         }
       }
     }

@@ -12,9 +12,12 @@ struct GridVelocity {
   Eigen::Vector3d omega = Eigen::Vector3d::Zero();
   double at(int component, double x, double y, double z) const {
     switch (component) {
-      case 0: return V.x() + omega.y() * z - omega.z() * y;
-      case 1: return V.y() + omega.z() * x - omega.x() * z;
-      default: return V.z() + omega.x() * y - omega.y() * x;
+      case 0:
+        return V.x() + omega.y() * z - omega.z() * y;
+      case 1:
+        return V.y() + omega.z() * x - omega.x() * z;
+      default:
+        return V.z() + omega.x() * y - omega.y() * x;
     }
   }
 };
@@ -29,9 +32,9 @@ WallVelocity rotated(const WallVelocity& w, const Eigen::Matrix3d& Q);
 WallVelocity combined(double a, const WallVelocity& x, double b, const WallVelocity& y, double c,
                       const WallVelocity& z);
 
-/// out = Q in at every interior face: velocity resolved in axes turned by Q. Each component keeps its
-/// own faces; the other two are averaged to them, so a uniform field is turned exactly. Ghosts and
-/// outer faces are turned too.
+/// out = Q in at every interior face: velocity resolved in axes turned by Q. Each component keeps
+/// its own faces; the other two are averaged to them, so a uniform field is turned exactly. Ghosts
+/// and outer faces are turned too.
 void rotateField(const Layout& l, const Eigen::Matrix3d& Q, const Velocity& in, Velocity& out);
 
 }  // namespace monarch_flight

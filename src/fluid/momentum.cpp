@@ -7,16 +7,17 @@
 namespace monarch_flight {
 namespace {
 
-constexpr double kUpwindMin = 0.05;  ///< share of first-order upwind at small Courant numbers
-constexpr double kUpwindMax = 0.30;  ///< and at Courant numbers above 2
+constexpr double kUpwindMin = 0.05;        ///< share of first-order upwind at small Courant numbers
+constexpr double kUpwindMax = 0.30;        ///< and at Courant numbers above 2
 constexpr double kDissipation = 1.0 / 32;  ///< fourth difference, at Courant numbers of 1 and above
-constexpr int kLines = 8;            ///< lines solved together in the x sweep (one vector)
+constexpr int kLines = 8;                  ///< lines solved together in the x sweep (one vector)
 
 double upwind(double courant) {
   return std::min(kUpwindMax, std::max(kUpwindMin, kUpwindMin + 0.25 * (courant - 1.0)));
 }
 
-/// a A_d: `minus` and `plus` are the convecting velocities on the lower and upper side of the point.
+/// a A_d: `minus` and `plus` are the convecting velocities on the lower and upper side of the
+/// point.
 struct Stencil {
   double a, dt, nu;
   double lower(double minus, double inv_dist, double inv_width) const {
@@ -41,8 +42,10 @@ Momentum::Momentum(const Grid& grid, const Layout& layout)
       Direction& m = metric_[c][d];
       m.inverse_width.assign(n + 2, 0.0);
       m.inverse_distance.assign(n + 2, 0.0);
-      for (int i = first(c, d); i < n; ++i) m.inverse_width[i] = 1 / (c == d ? axis.gap[i] : axis.width[i]);
-      for (int i = first(c, d); i <= n; ++i) m.inverse_distance[i] = 1 / (c == d ? axis.width[i - 1] : axis.gap[i]);
+      for (int i = first(c, d); i < n; ++i)
+        m.inverse_width[i] = 1 / (c == d ? axis.gap[i] : axis.width[i]);
+      for (int i = first(c, d); i <= n; ++i)
+        m.inverse_distance[i] = 1 / (c == d ? axis.width[i - 1] : axis.gap[i]);
     }
     blocked_[c].assign(layout.sz, 0.0);
   }
@@ -69,7 +72,8 @@ double Momentum::position(int component, int direction, int index) const {
   return component == direction ? axis.face[index] : axis.centre[index];
 }
 
-void Momentum::coefficients(const Velocity& c, int component, int direction, int j, int k, Row row) const {
+void Momentum::coefficients(const Velocity& c, int component, int direction, int j, int k,
+                            Row row) const {
   const Direction& m = metric_[component][direction];
   const std::ptrdiff_t s = layout_.stride(direction);
   const std::ptrdiff_t o = component == direction ? -s : -layout_.stride(component);
@@ -88,15 +92,16 @@ void Momentum::coefficients(const Velocity& c, int component, int direction, int
     return;
   }
   const int n = direction == 1 ? j : k;
-  const double iw = m.inverse_width[n], id0 = m.inverse_distance[n], id1 = m.inverse_distance[n + 1];
+  const double iw = m.inverse_width[n], id0 = m.inverse_distance[n],
+               id1 = m.inverse_distance[n + 1];
   for (int i = i0; i <= i1; ++i) {
     lower[i] = stencil.lower(0.5 * (f[i] + f[i + o]), id0, iw);
     upper[i] = stencil.upper(0.5 * (f[i + s] + f[i + s + o]), id1, iw);
   }
 }
 
-void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Velocity& vm, const Velocity& c,
-                       const Array& p, const WallVelocity& wall_n) {
+void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Velocity& vm,
+                       const Velocity& c, const Array& p, const WallVelocity& wall_n) {
   step_ = step;
   for (int component = 0; component < 3; ++component) {
     for (int k = first(component, 2); k <= last(component, 2); ++k) {
@@ -116,7 +121,8 @@ void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Veloc
 
 void Momentum::finish(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change,
                       Velocity& v_star) {
-  std::copy(wing_plane_.begin(), wing_plane_.end(), delta_.c[2].data() + layout_.at(-8, -1, grid_.k_wing));
+  std::copy(wing_plane_.begin(), wing_plane_.end(),
+            delta_.c[2].data() + layout_.at(-8, -1, grid_.k_wing));
   sweepX(c, 2, grid_.k_wing, &wall_change);
   sweepY(c, 2, grid_.k_wing, &wall_change);
   for (int component = 0; component < 3; ++component) {
@@ -155,7 +161,8 @@ void Momentum::rightSide(const Velocity& vn, const Velocity& vm, const Velocity&
       const bool above = k == grid_.k_wing;
       const Direction& m = metric_[component][2];
       const double wall = 2 * step_.a * step_.nu / (grid_.z.width[k] * grid_.z.width[k]);
-      const double link = step_.a * step_.nu * m.inverse_distance[grid_.k_wing] * m.inverse_width[k];
+      const double link =
+          step_.a * step_.nu * m.inverse_distance[grid_.k_wing] * m.inverse_width[k];
       double* __restrict off = above ? lo : up;
       const double y = position(component, 1, j);
       for (int i = i0; i <= i1; ++i) {
@@ -170,7 +177,8 @@ void Momentum::rightSide(const Velocity& vn, const Velocity& vm, const Velocity&
   dissipate(vn, c, component, 1, j, k);
 }
 
-void Momentum::dissipate(const Velocity& vn, const Velocity& c, int component, int direction, int j, int k) {
+void Momentum::dissipate(const Velocity& vn, const Velocity& c, int component, int direction, int j,
+                         int k) {
   const int n = direction == 0 ? layout_.nx : layout_.ny;
   if (direction == 1 && (j < 2 + first(component, 1) || j > n - 3)) return;
   const std::ptrdiff_t row = layout_.at(0, j, k), s = layout_.stride(direction);
@@ -227,7 +235,8 @@ void Momentum::sweepX(const Velocity& c, int component, int k, const WallVelocit
       }
     }
     for (int i = i1 - 1; i >= i0; --i) {
-      for (int l = 0; l < lines; ++l) d[l * layout_.sy + i] -= g[i * kLines + l] * d[l * layout_.sy + i + 1];
+      for (int l = 0; l < lines; ++l)
+        d[l * layout_.sy + i] -= g[i * kLines + l] * d[l * layout_.sy + i + 1];
     }
   }
 }
@@ -266,14 +275,14 @@ void Momentum::sweepY(const Velocity& c, int component, int k, const WallVelocit
   }
 }
 
-void Momentum::sweepZ(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change, int component,
-                      int j, Velocity& v_star) {
+void Momentum::sweepZ(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change,
+                      int component, int j, Velocity& v_star) {
   const int i0 = first(component, 0), i1 = last(component, 0);
   const int k0 = first(component, 2), k1 = last(component, 2), kw = grid_.k_wing;
   double* __restrict lo = zlower_.data();
   double* __restrict up = zupper_.data();
-  double* __restrict wall_d = lower_.data();    // wall's addition to the diagonal
-  double* __restrict wall_r = upper_.data();    // and to the right side
+  double* __restrict wall_d = lower_.data();  // wall's addition to the diagonal
+  double* __restrict wall_r = upper_.data();  // and to the right side
   const double y = position(component, 1, j);
   for (int k = k0; k <= k1; ++k) {
     const std::ptrdiff_t row = layout_.at(0, j, k);

@@ -6,10 +6,10 @@ namespace monarch_flight {
 
 /// Constants of one momentum step.
 struct MomentumStep {
-  double a;      ///< dt (first step) or 2 dt / 3: the factor of the new level's right side [s]
-  double dt;     ///< [s]
-  double nu;     ///< kinematic viscosity [m^2/s]
-  double rho;    ///< [kg/m^3]
+  double a;           ///< dt (first step) or 2 dt / 3: the factor of the new level's right side [s]
+  double dt;          ///< [s]
+  double nu;          ///< kinematic viscosity [m^2/s]
+  double rho;         ///< [kg/m^3]
   bool second_order;  ///< BDF2; false: implicit Euler
 };
 
@@ -17,22 +17,27 @@ struct MomentumStep {
 ///
 /// In increments delta = v* - v^n, with the convecting field c frozen within the step, the step is
 ///     (1 + a A_x)(1 + a A_y)(1 + a A_z) delta = (v^n - v^(n-1))/3 - a (A v^n + grad p^n / rho) ,
-/// A_d v = c_d dv/dd - nu d2v/dd2, central with a small upwind fraction, in a form with zero row sums (a
-/// uniform field is kept exactly). Only the last factor and, in the wing's plane, the normal component
-/// see the wall's velocity at the new level; so all but these is done once a step (`prepare`) and the
-/// rest for each guess of the interface (`finish`). delta is affine in the wall's velocity.
+/// A_d v = c_d dv/dd - nu d2v/dd2, central with a small upwind fraction, in a form with zero row
+/// sums (a uniform field is kept exactly). Only the last factor and, in the wing's plane, the
+/// normal component see the wall's velocity at the new level; so all but these is done once a step
+/// (`prepare`) and the rest for each guess of the interface (`finish`). delta is affine in the
+/// wall's velocity.
 class Momentum {
  public:
   Momentum(const Grid& grid, const Layout& layout);
 
-  /// Does what does not depend on the wall's new velocity. `vn`, `vm`: levels n and n-1; `c`: convecting
-  /// field; `p`: pressure at n (layout of cells = faces (i,j,k)); `wall_n`: the wall at level n.
+  /// Does what does not depend on the wall's new velocity. `vn`, `vm`: levels n and n-1; `c`:
+  /// convecting field; `p`: pressure at n (layout of cells = faces (i,j,k)); `wall_n`: the wall at
+  /// level n.
   void prepare(const MomentumStep& step, const Velocity& vn, const Velocity& vm, const Velocity& c,
                const Array& p, const WallVelocity& wall_n);
-  /// v* for the wall's change of velocity; wing faces and outer faces as given by the caller afterwards.
-  void finish(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change, Velocity& v_star);
+  /// v* for the wall's change of velocity; wing faces and outer faces as given by the caller
+  /// afterwards.
+  void finish(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change,
+              Velocity& v_star);
 
-  /// Share (0, 1/2, 1) of the z-face below the point (i, j, k_wing) of component u, v or w that is wing.
+  /// Share (0, 1/2, 1) of the z-face below the point (i, j, k_wing) of component u, v or w that is
+  /// wing.
   double blocked(int component, int i, int j) const {
     return blocked_[component][static_cast<std::size_t>((j + 1) * layout_.sy + i + 8)];
   }
@@ -56,17 +61,18 @@ class Momentum {
   void dissipate(const Velocity& vn, const Velocity& c, int component, int direction, int j, int k);
   void sweepX(const Velocity& c, int component, int k, const WallVelocity* wall_change);
   void sweepY(const Velocity& c, int component, int k, const WallVelocity* wall_change);
-  void sweepZ(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change, int component, int j,
-              Velocity& v_star);
-  void fixWingFaces(const WallVelocity& wall_change, int j, double* lower, double* upper, double* d) const;
+  void sweepZ(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change, int component,
+              int j, Velocity& v_star);
+  void fixWingFaces(const WallVelocity& wall_change, int j, double* lower, double* upper,
+                    double* d) const;
 
   const Grid& grid_;
   Layout layout_;
-  Direction metric_[3][3];   ///< [component][direction]
-  Array blocked_[3];         ///< per component, one plane
+  Direction metric_[3][3];  ///< [component][direction]
+  Array blocked_[3];        ///< per component, one plane
   MomentumStep step_{};
-  Velocity delta_;           ///< after the x and y factors
-  Array wing_plane_;         ///< right side of w in the wing's plane, before any factor
+  Velocity delta_;    ///< after the x and y factors
+  Array wing_plane_;  ///< right side of w in the wing's plane, before any factor
   Array lower_, upper_, gamma_, zlower_, zupper_;  ///< scratch
 };
 

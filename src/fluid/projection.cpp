@@ -17,13 +17,15 @@ void netOutflow(const Grid& grid, const Layout& l, const Velocity& v, double sca
       double* __restrict o = b + (static_cast<std::ptrdiff_t>(k) * l.ny + j) * l.nx;
       const double ax = hy * hz, ay = scale * hz;
       for (int i = 0; i < l.nx; ++i) {
-        o[i] = ax * (u[i + 1] - u[i]) + hx[i] * (ay * (s[i + l.sy] - s[i]) + hy * (w[i + l.sz] - w[i]));
+        o[i] = ax * (u[i + 1] - u[i]) +
+               hx[i] * (ay * (s[i + l.sy] - s[i]) + hy * (w[i + l.sz] - w[i]));
       }
     }
   }
 }
 
-void subtractGradient(const Grid& grid, const Layout& l, const double* phi, double scale, Velocity& v) {
+void subtractGradient(const Grid& grid, const Layout& l, const double* phi, double scale,
+                      Velocity& v) {
   const std::ptrdiff_t py = l.nx, pz = static_cast<std::ptrdiff_t>(l.nx) * l.ny;
   for (int k = 0; k < l.nz; ++k) {
     for (int j = 0; j < l.ny; ++j) {
@@ -107,7 +109,8 @@ void fillOuter(const Grid& grid, const Layout& l, const Eigen::Vector3d& far, Ve
 void fillWing(const Grid& grid, const Layout& l, const WallVelocity& wall, Velocity& v) {
   for (int j = 0; j < l.ny; ++j) {
     for (int i = 0; i < l.nx; ++i) {
-      if (grid.isWing(i, j)) v.c[2][l.at(i, j, grid.k_wing)] = wall.at(2, grid.x.centre[i], grid.y.centre[j]);
+      if (grid.isWing(i, j))
+        v.c[2][l.at(i, j, grid.k_wing)] = wall.at(2, grid.x.centre[i], grid.y.centre[j]);
     }
   }
 }
@@ -123,7 +126,8 @@ double relativeDivergence(const Grid& grid, const Layout& l, const Velocity& v) 
       for (int i = 0; i < l.nx; ++i) {
         const std::ptrdiff_t q = l.at(i, j, k);
         const double hx = grid.x.width[i], hy = grid.y.width[j], hz = grid.z.width[k];
-        const double net = (v.c[0][q + 1] - v.c[0][q]) * hy * hz + (v.c[1][q + l.sy] - v.c[1][q]) * hx * hz +
+        const double net = (v.c[0][q + 1] - v.c[0][q]) * hy * hz +
+                           (v.c[1][q + l.sy] - v.c[1][q]) * hx * hz +
                            (v.c[2][q + l.sz] - v.c[2][q]) * hx * hy;
         worst = std::max(worst, std::abs(net) / std::max({hy * hz, hx * hz, hx * hy}));
       }

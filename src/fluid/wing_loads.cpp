@@ -2,15 +2,16 @@
 
 namespace monarch_flight {
 
-void pressureLoads(const Grid& grid, const WingPressure& p, double rho, const WallVelocity& acceleration,
-                   Loads& loads) {
+void pressureLoads(const Grid& grid, const WingPressure& p, double rho,
+                   const WallVelocity& acceleration, Loads& loads) {
   double f = 0, mx = 0, my = 0;
   for (int j = 0; j < grid.y.n(); ++j) {
     for (int i = 0; i < grid.x.n(); ++i) {
       if (!grid.isWing(i, j)) continue;
       const double x = grid.x.centre[i], y = grid.y.centre[j];
       const double a_n = acceleration.at(2, x, y);
-      const double df = grid.x.width[i] * grid.y.width[j] * (p.below(i, j, rho, a_n) - p.above(i, j, rho, a_n));
+      const double df =
+          grid.x.width[i] * grid.y.width[j] * (p.below(i, j, rho, a_n) - p.above(i, j, rho, a_n));
       f += df;
       mx += y * df;
       my -= x * df;
@@ -21,7 +22,8 @@ void pressureLoads(const Grid& grid, const WingPressure& p, double rho, const Wa
 }
 
 void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, const Velocity& v,
-                   const double* phi, double scale, const WallVelocity& wall, double mu, Loads& loads) {
+                   const double* phi, double scale, const WallVelocity& wall, double mu,
+                   Loads& loads) {
   const int kw = grid.k_wing;
   const std::ptrdiff_t pz = static_cast<std::ptrdiff_t>(l.nx) * l.ny;
   double f[2] = {0, 0}, mz = 0;

@@ -8,7 +8,8 @@ namespace monarch_flight {
 /// The wing's surface pressure at one level, seen from the cells that touch it.
 ///
 /// The pressure at the wall follows from the cells' by the wall-normal momentum equation,
-/// dp/dz = - rho a_n, a_n the wall's own normal acceleration: second order in the height of the cell.
+/// dp/dz = - rho a_n, a_n the wall's own normal acceleration: second order in the height of the
+/// cell.
 class WingPressure {
  public:
   /// `p` with layout `l` plus `phi` without ghosts (may be null).
@@ -33,10 +34,11 @@ class WingPressure {
 };
 
 /// Force and moment (about the origin) of the pressure jump.
-void pressureLoads(const Grid& grid, const WingPressure& p, double rho, const WallVelocity& acceleration,
-                   Loads& loads);
+void pressureLoads(const Grid& grid, const WingPressure& p, double rho,
+                   const WallVelocity& acceleration, Loads& loads);
 /// Force and moment of the shear on both sides. `v` minus `scale` grad `phi` is the velocity.
 void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, const Velocity& v,
-                   const double* phi, double scale, const WallVelocity& wall, double mu, Loads& loads);
+                   const double* phi, double scale, const WallVelocity& wall, double mu,
+                   Loads& loads);
 
 }  // namespace monarch_flight
