@@ -1,0 +1,427 @@
+// The direct pressure solver: its algebra against the operator and a dense solve, its order against
+// a smooth solution, and the added mass of plates against exact values.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <stdexcept>
+
+#include "monarch_flight/fluid/pressure_solver.h"
+
+// Counts every request for memory of the process, the BLAS included (glibc).
+namespace {
+long g_requests = 0;
+}
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* __libc_memalign(std::size_t alignment, std::size_t size);
+extern "C" void* malloc(std::size_t size) {
+  ++g_requests;
+  return __libc_malloc(size);
+}
+extern "C" void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++g_requests;
+  return __libc_memalign(alignment, size);
+}
+
+namespace monarch_flight {
+namespace {
+
+using Field = Eigen::VectorXd;
+using Shape = std::function<bool(double, double)>;
+
+/// n cells on [low, high], stretched by `skew` (asymmetric) or `squeeze` (symmetric), both in [0,
+/// 1).
+Axis axisOf(int n, double low, double high, double skew, double squeeze) {
+  std::vector<double> face(n + 1);
+  for (int i = 0; i <= n; ++i) {
+    const double s = static_cast<double>(i) / n;
+    const double t =
+        s + 0.5 * skew * s * (1.0 - s) + squeeze / (2.0 * M_PI) * std::sin(2.0 * M_PI * s);
+    face[i] = low + (high - low) * t;
+  }
+  face.back() = high;
+  return Axis::fromFaces(face);
+}
+
+struct GridCase {
+  const char* name;
+  int nx, ny;
+  double skew_x, skew_y;  ///< 0: symmetric
+  Shape wing;
+};
+
+const Shape kNone = [](double, double) { return false; };
+const Shape kDisc = [](double x, double y) { return std::hypot(x, y) < 0.8; };
+const Shape kEll = [](double x, double y) {
+  return std::abs(x) < 0.9 && std::abs(y) < 0.9 && !(x > 0.1 && y > -0.2);
+};
+const Shape kTwoPieces = [](double x, double y) {
+  return std::hypot(x - 1, y) < 0.5 || std::hypot(x + 1, y - 0.5) < 0.4;
+};
+
+Grid gridOf(const GridCase& c, bool open) {
+  Axis x = axisOf(c.nx, -2.0, 2.0, c.skew_x, 0.4), y = axisOf(c.ny, -1.5, 1.5, c.skew_y, 0.3);
+  const Axis below = axisOf(6, -1.0, 0.0, 0.2, 0.0), above = axisOf(9, 0.0, 1.4, 0.0, 0.2);
+  std::vector<double> z = below.face;
+  z.insert(z.end(), above.face.begin() + 1, above.face.end());
+  std::vector<std::uint8_t> wing;
+  for (double yc : y.centre) {
+    for (double xc : x.centre) wing.push_back(c.wing(xc, yc));
+  }
+  return makeGrid(std::move(x), std::move(y), Axis::fromFaces(z), 6, open, std::move(wing));
+}
+
+Field randomRight(const Grid& grid, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal;
+  Field b(grid.cells());
+  for (double& v : b) v = normal(engine);
+  if (!grid.open) b.array() -= b.mean();
+  return b;
+}
+
+Field volumes(const Grid& grid) {
+  Field v(grid.cells());
+  long c = 0;
+  for (double dz : grid.z.width) {
+    for (double dy : grid.y.width) {
+      for (double dx : grid.x.width) v[c++] = dx * dy * dz;
+    }
+  }
+  return v;
+}
+
+/// The operator as the header defines it, face by face, written independently of the library.
+Eigen::MatrixXd denseOperator(const Grid& g) {
+  const int n[3] = {g.x.n(), g.y.n(), g.z.n()};
+  const Axis* axes[3] = {&g.x, &g.y, &g.z};
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(g.cells(), g.cells());
+  auto index = [&](const int* c) { return (static_cast<long>(c[2]) * n[1] + c[1]) * n[0] + c[0]; };
+  int c[3];
+  for (c[2] = 0; c[2] < n[2]; ++c[2]) {
+    for (c[1] = 0; c[1] < n[1]; ++c[1]) {
+      for (c[0] = 0; c[0] < n[0]; ++c[0]) {
+        for (int d = 0; d < 3; ++d) {
+          const double area =
+              axes[(d + 1) % 3]->width[c[(d + 1) % 3]] * axes[(d + 2) % 3]->width[c[(d + 2) % 3]];
+          for (int side : {-1, 1}) {
+            int other[3] = {c[0], c[1], c[2]};
+            other[d] += side;
+            const int face = c[d] + (side + 1) / 2;
+            if (d == 2 && face == g.k_wing && g.isWing(c[0], c[1])) continue;
+            const bool outer = other[d] < 0 || other[d] == n[d];
+            if (outer && !g.open) continue;
+            const double distance =
+                outer ? 0.5 * axes[d]->width[c[d]]
+                      : std::abs(axes[d]->centre[other[d]] - axes[d]->centre[c[d]]);
+            a(index(c), index(c)) -= area / distance;
+            if (!outer) a(index(c), index(other)) += area / distance;
+          }
+        }
+      }
+    }
+  }
+  return a;
+}
+
+class Solve : public testing::TestWithParam<std::tuple<GridCase, bool>> {
+ protected:
+  Grid grid_ = gridOf(std::get<0>(GetParam()), std::get<1>(GetParam()));
+};
+
+TEST_P(Solve, SatisfiesTheEquationsToRounding) {
+  const PressureSolver solver(grid_);
+  EXPECT_EQ(solver.wingFaces(), std::count(grid_.wing.begin(), grid_.wing.end(), 1));
+  for (unsigned seed : {1u, 2u}) {
+    const Field b = randomRight(grid_, seed);
+    Field p = b, back(b.size());
+    solver.solve(p.data());
+    solver.apply(p.data(), back.data());
+    EXPECT_LE((back - b).norm(), 1e-11 * b.norm());
+    if (!grid_.open) {
+      EXPECT_LE(std::abs(volumes(grid_).dot(p)), 1e-11 * p.norm());
+    }
+  }
+}
+
+TEST_P(Solve, OperatorIsTheOneOfTheHeader) {
+  const PressureSolver solver(grid_);
+  const Field p = randomRight(grid_, 3);
+  Field y(p.size());
+  solver.apply(p.data(), y.data());
+  const Field expected = denseOperator(grid_) * p;
+  EXPECT_LE((y - expected).norm(), 1e-13 * expected.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Grids, Solve,
+    testing::Combine(testing::Values(GridCase{"no_wing", 16, 14, 0, 0, kNone},
+                                     GridCase{"disc", 16, 14, 0, 0, kDisc},
+                                     GridCase{"disc_skew_x", 16, 14, 0.6, 0, kDisc},
+                                     GridCase{"disc_skew_y", 16, 14, 0, 0.6, kDisc},
+                                     GridCase{"disc_skew_both", 15, 13, 0.6, 0.5, kDisc},
+                                     GridCase{"disc_odd_counts", 15, 13, 0, 0, kDisc},
+                                     GridCase{"ell", 16, 14, 0, 0, kEll},
+                                     GridCase{"two_pieces", 16, 13, 0, 0, kTwoPieces}),
+                     testing::Bool()),
+    [](const auto& info) {
+      return std::string(std::get<0>(info.param).name) +
+             (std::get<1>(info.param) ? "_open" : "_rest");
+    });
+
+class OddWing : public testing::TestWithParam<bool> {};
+
+TEST_P(OddWing, OneFaceAnywhereAndAllButOneAreSolved) {
+  const GridCase base{"", 8, 6, 0, 0.4, kNone};
+  for (bool inverted : {false, true}) {
+    for (std::size_t face : {0u, 7u, 20u, 47u}) {
+      Grid grid = gridOf(base, GetParam());
+      std::fill(grid.wing.begin(), grid.wing.end(), inverted);
+      grid.wing[face] = !inverted;
+      const PressureSolver solver(grid);
+      const Field b = randomRight(grid, 5);
+      Field p = b, back(b.size());
+      solver.solve(p.data());
+      solver.apply(p.data(), back.data());
+      EXPECT_LE((back - b).norm(), 1e-11 * b.norm()) << inverted << " " << face;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Outer, OddWing, testing::Bool());
+
+TEST(PressureSolver, RefusesAWingThatCutsAClosedBoxInTwo) {
+  Grid grid = gridOf({"", 8, 6, 0, 0, kNone}, false);
+  std::fill(grid.wing.begin(), grid.wing.end(), 1);
+  EXPECT_THROW(PressureSolver{grid}, std::invalid_argument);
+  grid.open = true;
+  EXPECT_NO_THROW(PressureSolver{grid});
+}
+
+TEST(PressureSolver, AgreesWithADenseSolve) {
+  for (bool open : {false, true}) {
+    for (double skew : {0.0, 0.5}) {
+      const Grid grid = gridOf({"", 8, 6, skew, 0.0, kEll}, open);
+      const Field b = randomRight(grid, 7), volume = volumes(grid);
+      Field p = b;
+      PressureSolver(grid).solve(p.data());
+      Field expected = denseOperator(grid).completeOrthogonalDecomposition().solve(b);
+      if (!open) expected.array() -= volume.dot(expected) / volume.sum();
+      EXPECT_LE((p - expected).norm(), 1e-11 * expected.norm()) << open << " " << skew;
+    }
+  }
+}
+
+TEST(PressureSolver, RemovesTheMeanOfAnUnbalancedRightSideOfAClosedBox) {
+  const Grid grid = gridOf({"", 8, 6, 0, 0.3, kDisc}, false);
+  const PressureSolver solver(grid);
+  const Field balanced = randomRight(grid, 8), volume = volumes(grid);
+  Field p = balanced, q = balanced + 0.3 / volume.sum() * volume;
+  solver.solve(p.data());
+  solver.solve(q.data());
+  EXPECT_LE((p - q).norm(), 1e-12 * p.norm());
+}
+
+TEST(PressureSolver, RepeatsBitForBitAndAsksForNoMemory) {
+  const Grid grid = gridOf({"", 16, 14, 0, 0, kDisc}, false);
+  const PressureSolver solver(grid), second(grid);
+  const Field b = randomRight(grid, 9);
+  Field p = b, q = b, r = b;
+  solver.solve(p.data());
+  const long before = g_requests;
+  solver.solve(q.data());
+  EXPECT_EQ(g_requests, before);
+  second.solve(r.data());
+  EXPECT_EQ(p, q);
+  EXPECT_EQ(p, r);
+  EXPECT_GT(before, 0);  // the counter itself works
+}
+
+/// Largest error against a smooth solution without wing, n cells a side on stretched axes.
+double smoothError(int n, bool open) {
+  const double kx = M_PI / 2.0, ky = M_PI, kz = M_PI / 1.5;
+  Axis x = axisOf(n, 0.0, 2.0, 0.5, 0.0), y = axisOf(n, 0.0, 1.0, 0.0, 0.4);
+  Axis z = axisOf(n, -0.5, 1.0, 0.0, 0.0);
+  const int k_wing = n / 3;  // z.face = -0.5 + 1.5 k / n: zero for n divisible by 3
+  z.face[k_wing] = 0.0;
+  Grid grid = makeGrid(std::move(x), std::move(y), Axis::fromFaces(z.face), k_wing, open,
+                       std::vector<std::uint8_t>(static_cast<std::size_t>(n) * n, 0));
+  auto exact = [&](double a, double b, double c) {
+    return open ? std::sin(kx * a) * std::sin(ky * b) * std::sin(kz * (c + 0.5))
+                : std::cos(kx * a) * std::cos(ky * b) * std::cos(kz * (c + 0.5));
+  };
+  const Field volume = volumes(grid);
+  Field p(grid.cells()), truth(grid.cells());
+  long at = 0;
+  for (double c : grid.z.centre) {
+    for (double b : grid.y.centre) {
+      for (double a : grid.x.centre) truth[at++] = exact(a, b, c);
+    }
+  }
+  p = -(kx * kx + ky * ky + kz * kz) * truth.cwiseProduct(volume);
+  PressureSolver(grid).solve(p.data());
+  if (!open) truth.array() -= volume.dot(truth) / volume.sum();
+  return (p - truth).lpNorm<Eigen::Infinity>();
+}
+
+TEST(PressureSolver, IsOfSecondOrderOnStretchedAxes) {
+  for (bool open : {false, true}) {
+    const double coarse = smoothError(12, open), fine = smoothError(24, open);
+    const double finest = smoothError(48, open);
+    EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.2) << open;
+    EXPECT_NEAR(std::log2(fine / finest), 2.0, 0.1) << open;
+    EXPECT_LT(finest, 2e-3) << open;
+  }
+}
+
+/// Generalised added mass [rho = 1] of the wing for the normal acceleration `shape`: from the
+/// cells' pressures, and from the wall's, which the known normal gradient dp/dz = - rho a gives.
+struct AddedMass {
+  double cells, wall;
+};
+
+AddedMass addedMass(const Planform& wing, double cells_per_chord, double first_cell_over_spacing,
+                    const std::function<double(double, double)>& shape) {
+  GridSettings settings;
+  settings.cells_per_chord = cells_per_chord;
+  settings.first_cell = first_cell_over_spacing / cells_per_chord;
+  settings.growth_plane = settings.growth_normal = 1.2;
+  const Grid g = makeGrid(wing, settings);
+  const long plane = static_cast<long>(g.x.n()) * g.y.n(), up = g.k_wing * plane, down = up - plane;
+  Field p = Field::Zero(g.cells());
+  auto eachFace = [&](auto&& visit) {
+    for (int j = 0; j < g.y.n(); ++j) {
+      for (int i = 0; i < g.x.n(); ++i) {
+        if (g.isWing(i, j)) {
+          visit(static_cast<long>(j) * g.x.n() + i, g.x.width[i] * g.y.width[j],
+                shape(g.x.centre[i], g.y.centre[j]));
+        }
+      }
+    }
+  };
+  eachFace([&](long at, double area, double a) {
+    p[down + at] +=
+        area * a;  // the wall pushes air out of the cell above, draws it into the one below
+    p[up + at] -= area * a;
+  });
+  PressureSolver(g).solve(p.data());
+  const double half_heights = 0.5 * (g.z.width[g.k_wing] + g.z.width[g.k_wing - 1]);
+  AddedMass m{0.0, 0.0};
+  eachFace([&](long at, double area, double a) {
+    const double jump = p[up + at] - p[down + at];
+    m.cells += area * a * jump;
+    m.wall += area * a * (jump + a * half_heights);
+  });
+  return m;
+}
+
+double one(double, double) { return 1.0; }
+
+TEST(AddedMass, OfADiscBroadsideApproachesEightThirds) {
+  const double exact = 8.0 / 3.0 * std::pow(0.5, 3), chord = M_PI / 4.0;  // diameter 1
+  const Planform disc = Planform::ellipse(1.0, 1.0, 0.5, -0.5);
+  auto error = [&](double cells_per_diameter, double first) {
+    const AddedMass m = addedMass(disc, cells_per_diameter * chord, first, one);
+    return std::make_pair(m.cells / exact - 1.0, m.wall / exact - 1.0);
+  };
+  const auto coarse = error(12, 0.5), middle = error(24, 0.5), fine = error(48, 0.5);
+  EXPECT_NEAR(middle.first, 0.0, 0.03);
+  EXPECT_NEAR(middle.second, 0.0, 0.05);
+  EXPECT_NEAR(fine.first, 0.0, 0.015);
+  EXPECT_NEAR(fine.second, 0.0, 0.03);
+  EXPECT_LT(middle.second, 0.6 * coarse.second);  // first order: the edge's singularity
+  EXPECT_LT(fine.second, 0.65 * middle.second);
+}
+
+TEST(AddedMass, OfADiscAboutADiameterApproachesSixteenFortyFifths) {
+  const double exact = 16.0 / 45.0 * std::pow(0.5, 5), chord = M_PI / 4.0;
+  const Planform disc = Planform::ellipse(1.0, 1.0, 0.5, -0.5);
+  for (bool about_x : {false, true}) {
+    auto lever = [about_x](double x, double y) { return about_x ? y : x; };
+    const AddedMass middle = addedMass(disc, 24 * chord, 0.5, lever);
+    const AddedMass fine = addedMass(disc, 48 * chord, 0.5, lever);
+    EXPECT_NEAR(middle.cells / exact, 1.0, 0.04);
+    EXPECT_NEAR(middle.wall / exact, 1.0, 0.09);
+    EXPECT_NEAR(fine.cells / exact, 1.0, 0.02);
+    EXPECT_NEAR(fine.wall / exact, 1.0, 0.05);
+  }
+}
+
+TEST(AddedMass, OfEllipsesMatchesLamb) {  // 4/3 pi rho a b^2 / E(e), semi-axes a > b
+  for (double ratio : {2.0, 4.0}) {
+    const double a = 0.5 * ratio, b = 0.5;
+    const double exact =
+        4.0 / 3.0 * M_PI * a * b * b / std::comp_ellint_2(std::sqrt(1 - b * b / (a * a)));
+    const Planform ellipse = Planform::ellipse(1.0, ratio, 0.5, -0.5 * ratio);
+    const AddedMass coarse = addedMass(ellipse, 12 * ellipse.meanChord(), 0.5, one);
+    const AddedMass fine = addedMass(ellipse, 24 * ellipse.meanChord(), 0.5, one);
+    EXPECT_NEAR(fine.cells / exact, 1.0, 0.03) << ratio;
+    EXPECT_NEAR(fine.wall / exact, 1.0, 0.065) << ratio;
+    EXPECT_LT(fine.wall / exact - 1.0, 0.65 * (coarse.wall / exact - 1.0)) << ratio;
+  }
+}
+
+// Staircase and outline agree on a rectangle: what is left is the edge alone, and it is of first
+// order.
+TEST(AddedMass, OfRectanglesConvergesAtFirstOrder) {
+  nlohmann::json table;
+  std::ifstream(TEST_DATA_DIR "/added_mass_rectangles.json") >> table;
+  for (int ratio : {1, 2, 4}) {
+    const auto& row = table.at("rect_AR" + std::to_string(ratio));
+    const Planform plate = Planform::rectangle(1.0, ratio, 0.5, -0.5 * ratio);
+    const struct {
+      std::function<double(double, double)> shape;
+      double exact, cells_bound, wall_bound;  // at 24 cells a chord
+    } cases[] = {{one, M_PI / 4 * ratio * row.at("C_heave").get<double>(), 0.03, 0.075},
+                 {[](double x, double) { return x; },
+                  M_PI / 128 * ratio * row.at("C_pitch").get<double>(), 0.035, 0.12},
+                 {[](double, double y) { return y; }, row.at("I_roll").get<double>(), 0.035, 0.12}};
+    for (const auto& c : cases) {
+      const AddedMass coarse = addedMass(plate, 12, 0.5, c.shape),
+                      fine = addedMass(plate, 24, 0.5, c.shape);
+      EXPECT_NEAR(fine.cells / c.exact, 1.0, c.cells_bound) << ratio;
+      EXPECT_NEAR(fine.wall / c.exact, 1.0, c.wall_bound) << ratio;
+      const double halved = (fine.wall - c.exact) / (coarse.wall - c.exact);
+      EXPECT_NEAR(halved, 0.5, 0.03) << ratio;
+      EXPECT_NEAR((2 * fine.wall - coarse.wall) / c.exact, 1.0, 0.02) << ratio;  // extrapolated
+    }
+  }
+}
+
+// The far field at 10 chords: moving it out, or opening it, changes the added mass of a wing
+// little.
+TEST(AddedMass, HardlyFeelsTheOuterBoundary) {
+  const Planform disc = Planform::ellipse(1.0, 1.0, 0.5, -0.5);
+  GridSettings settings;
+  auto heave = [&](double far, const char* outer) {
+    settings.far_field = far;
+    settings.outer = outer;
+    const Grid g = makeGrid(disc, settings);
+    const long plane = static_cast<long>(g.x.n()) * g.y.n(), up = g.k_wing * plane;
+    Field p = Field::Zero(g.cells());
+    for (long at = 0; at < plane; ++at) {
+      if (!g.wing[at]) continue;
+      const double area = g.x.width[at % g.x.n()] * g.y.width[at / g.x.n()];
+      p[up - plane + at] += area;
+      p[up + at] -= area;
+    }
+    PressureSolver(g).solve(p.data());
+    double sum = 0.0;
+    for (long at = 0; at < plane; ++at) {
+      if (g.wing[at]) sum += p[up + at] - p[up - plane + at];
+    }
+    return sum;
+  };
+  const double far = heave(25, "rest");
+  EXPECT_NEAR(heave(10, "rest") / far, 1.0, 1e-3);
+  EXPECT_NEAR(heave(10, "open") / far, 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace monarch_flight
