@@ -1,0 +1,70 @@
+#include "monarch_flight/run/case.h"
+
+#include <regex>
+
+#include "run/case_parts.h"
+#include "run/case_sources.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr char kHeading[] =
+    "# Resolved case: every key written out, presets and tables included (docs/case_files.md).\n";
+
+std::string readName(Section& root) {
+  const std::string name = root.text("name");
+  if (!name.empty() && !std::regex_match(name, std::regex("[A-Za-z0-9][A-Za-z0-9_.-]*"))) {
+    root.fault("name",
+               " = '" + name + "': must consist of letters, digits, '_', '-' and '.'; rename it");
+  }
+  return name;
+}
+
+/// Reads all sections; what cannot be read keeps its default, with a fault.
+Case readCase(Section& root, Faults& faults) {
+  Case c;
+  c.name = readName(root);
+  root.text("description");
+  const auto insect = readInsect(root.section("insect"), faults);
+  const bool bare = insect ? insect->bare_wing
+                           : root.resolved()["insect"]["kind"].as<std::string>("") == "bare_wing";
+  if (insect) c.insect = *insect;
+  readFluid(root.section("fluid"), c);
+  readGrid(root.section("grid"), c, faults);
+  const CaseMotion motion = readMotion(root.section("motion"), bare, faults);
+  const InitialValues initial = readInitial(root);
+  c.free = readFree(root.section("free"));
+  readTime(root.section("time"), motion.frequency, c);
+  const double mean_chord = insect ? insect->planform.meanChord() : 1.0;
+  readCoupling(root.section("coupling"), mean_chord, c, faults);
+  readOutput(root.section("output"), c);
+  c.watchdog_s = root.number("watchdog_s", {Bound::kPositive, "s", "60 is usual"});
+  root.finish();
+
+  if (insect) checkFree(c, faults);
+  if (insect && motion.motion) checkMotion(c, motion, faults);
+  if (!root.clean()) return c;
+  const StartValues start = startValues(c, initial, *motion.motion, faults);
+  c.motion = std::make_shared<StartMotion>(motion.motion, start, c.time.t_start);
+  checkGrid(c, faults);
+  return c;
+}
+
+}  // namespace
+
+Case loadCase(const std::string& name_or_path, const CaseOverrides& overrides,
+              const std::string& config_dir) {
+  const std::string path = findCase(name_or_path, config_dir);
+  Faults faults;
+  const YAML::Node document = assembleCase(path, overrides, config_dir, faults);
+  Section root(document, "", faults);
+  Case c = readCase(root, faults);
+  faults.throwIfAny(path);
+  YAML::Emitter emitter;
+  emitter << root.resolved();
+  c.resolved_yaml = kHeading + std::string(emitter.c_str()) + "\n";
+  c.sha256 = sha256Hex(c.resolved_yaml);
+  return c;
+}
+
+}  // namespace monarch_flight

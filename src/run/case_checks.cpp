@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "monarch_flight/fluid/grid.h"
+#include "monarch_flight/math/errors.h"
+#include "run/case_parts.h"
+
+namespace monarch_flight {
+namespace {
+
+/// Start value of one coordinate: explicit where given, completed from the motion; none when
+/// neither.
+std::optional<StartValue> completed(const std::optional<double>& q, const std::optional<double>& qd,
+                                    const Coordinate& prescribed) {
+  if (!q && !qd) return std::nullopt;
+  return StartValue{q.value_or(prescribed.q), qd.value_or(prescribed.qd)};
+}
+
+std::optional<double> component(const std::optional<Eigen::Vector3d>& v, int i) {
+  return v ? std::optional<double>((*v)[i]) : std::nullopt;
+}
+
+/// A component that is not free may only repeat what the motion prescribes.
+void checkPrescribedComponents(const char* key, const std::optional<Eigen::Vector3d>& given,
+                               const Eigen::Vector3d& prescribed, const FreeCoordinates& free,
+                               Faults& faults) {
+  if (!given) return;
+  const bool is_free[3] = {free.x, false, free.z};
+  for (int i = 0; i < 3; ++i) {
+    if (is_free[i] || std::abs((*given)[i] - prescribed[i]) <= 1e-12) continue;
+    std::ostringstream text;
+    text << "initial/" << key << '[' << i << "] = " << (*given)[i]
+         << ": this coordinate is not free: must be " << prescribed[i]
+         << " as the motion has it; free it or change motion/body/" << key;
+    faults.add(text.str());
+  }
+}
+
+}  // namespace
+
+void checkFree(const Case& c, Faults& faults) {
+  const FreeCoordinates& f = c.free;
+  if (c.insect.bare_wing) {
+    for (const auto& [name, is_free] :
+         {std::pair{"x", f.x}, std::pair{"z", f.z}, std::pair{"pitch", f.pitch}}) {
+      if (!is_free) continue;
+      faults.add(
+          std::string("free/") + name +
+          " = true: must be false: a bare wing has no body to move; only wing_pitch may be free");
+    }
+  }
+  if (f.wing_pitch && !(c.insect.right.J(1, 1) > 0.0)) {
+    std::ostringstream text;
+    text << "insect/wing/mass = " << c.insect.right.m
+         << " kg: must be > 0 kg when free/wing_pitch is "
+         << "true; give the wing's mass or set free/wing_pitch false";
+    faults.add(text.str());
+  }
+}
+
+void checkMotion(const Case& c, const CaseMotion& motion, Faults& faults) {
+  if (motion.is_wing_table && !c.insect.bare_wing) {
+    faults.add(
+        "motion/kind = 'wing': must be body for a butterfly; or choose insect/kind bare_wing");
+  }
+  if (motion.is_wing_table && c.insect.beta != 0.0) {
+    faults.add(
+        "insect/beta = " + exactText(c.insect.beta) +
+        " rad: must be 0 with motion/kind wing: the table holds the wing's own axes; set it to 0");
+  }
+  if (!motion.is_table || c.time.steps == 0) return;
+  const double end = c.time.time(c.time.steps);
+  const double rounding = 1e-9 * (motion.t_end - motion.t_begin);
+  if (c.time.t_start >= motion.t_begin - rounding && end <= motion.t_end + rounding) return;
+  std::ostringstream text;
+  text.precision(9);
+  text << "motion: the table reaches from " << motion.t_begin << " to " << motion.t_end
+       << " s: must cover the run from " << c.time.t_start << " to " << end
+       << " s; give a longer table, or change time/t_start or the run's length";
+  faults.add(text.str());
+}
+
+StartValues startValues(const Case& c, const InitialValues& initial, const PrescribedMotion& motion,
+                        Faults& faults) {
+  const PrescribedState at_start = motion.at(c.time.t_start);
+  const BodyState& body = at_start.body;
+  checkPrescribedComponents("position", initial.position, body.x, c.free, faults);
+  checkPrescribedComponents("velocity", initial.velocity, body.v, c.free, faults);
+  const auto needsFree = [&](const char* key, const std::optional<double>& value, bool is_free,
+                             const char* free_key) {
+    if (!value || is_free) return;
+    faults.add(std::string("initial/") + key + " = " + exactText(*value) + ": free/" + free_key +
+               " is false: must be none; free the coordinate or change the motion");
+  };
+  needsFree("theta_B", initial.theta_B, c.free.pitch, "pitch");
+  needsFree("theta_B_dot", initial.theta_B_dot, c.free.pitch, "pitch");
+  needsFree("theta_R", initial.theta_R, c.free.wing_pitch, "wing_pitch");
+  needsFree("theta_R_dot", initial.theta_R_dot, c.free.wing_pitch, "wing_pitch");
+
+  StartValues start;
+  const auto along = [&](int i) {
+    return completed(component(initial.position, i), component(initial.velocity, i),
+                     {body.x[i], body.v[i], body.a[i]});
+  };
+  if (c.free.x) start.x = along(0);
+  if (c.free.z) start.z = along(2);
+  if (c.free.pitch) start.pitch = completed(initial.theta_B, initial.theta_B_dot, body.pitch);
+  if (c.free.wing_pitch) {
+    start.theta_R = completed(initial.theta_R, initial.theta_R_dot, at_start.angles.theta);
+  }
+  return start;
+}
+
+double peakTipSpeed(const Case& c) {
+  const Planform& planform = c.insect.planform;
+  const double y = planform.yTip();
+  const Eigen::Vector3d tip(0.5 * (planform.leading(y) + planform.trailing(y)), y, 0.0);
+  const std::uint32_t stride = std::max<std::uint32_t>(1, c.time.steps / 2000);
+  double peak = 0.0;
+  for (std::uint32_t step = 0; step <= c.time.steps; step += stride) {
+    const PrescribedState state = c.motion->at(c.time.time(step));
+    const WingMotion wing = rightWingMotion(c.insect, state.body, state.angles);
+    const Eigen::Vector3d air = wing.v_W - wing.R_IW.transpose() * c.air.wind_I;
+    peak = std::max(peak, (air + wing.omega_W.cross(tip)).norm());
+  }
+  return peak;
+}
+
+void checkGrid(const Case& c, Faults& faults) {
+  if (c.fluid != FluidKind::kNavierStokes) return;
+  try {
+    makeGrid(c.insect.planform, c.grid);
+  } catch (const InputError& e) {
+    faults.add(e.what());
+  }
+  const double speed = peakTipSpeed(c);
+  const double cell = c.insect.planform.meanChord() / c.grid.cells_per_chord;
+  const double courant = speed * c.time.dt / cell;
+  if (courant <= c.grid.courant_limit) return;
+  const double longest = c.grid.courant_limit * cell / speed;
+  std::ostringstream text;
+  text << (c.time.period > 0.0 ? "time/steps_per_flap" : "time/dt") << ": dt = " << c.time.dt
+       << " s gives a Courant number of " << courant << " (peak tip speed " << speed
+       << " m/s, cell " << cell << " m): must be <= grid/courant_limit = " << c.grid.courant_limit
+       << "; ";
+  if (c.time.period > 0.0) {
+    text << "take steps_per_flap >= " << std::ceil(c.time.period / longest);
+  } else {
+    text << "take dt <= " << longest << " s";
+  }
+  faults.add(text.str());
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,151 @@
+#include <cmath>
+#include <filesystem>
+
+#include "monarch_flight/insect/fourier_motion.h"
+#include "monarch_flight/insect/table_motion.h"
+#include "monarch_flight/math/errors.h"
+#include "run/case_parts.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+std::vector<double> inRadians(std::vector<double> degrees) {
+  for (double& value : degrees) value *= kDegree;
+  return degrees;
+}
+
+/// A number (constant angle) or a map A0, AN, BN, multiple; in degrees.
+FourierSeries readSeries(Section& motion, const std::string& key, double frequency) {
+  FourierSeries series;
+  if (motion.has(key) && !motion.isMap(key)) {
+    const double constant =
+        motion.number(key, {Bound::kAny, "deg", "or give A0, AN, BN, multiple"});
+    series.a0 = constant * kDegree;
+    return series;
+  }
+  Section section = motion.section(key);
+  series.a0 = section.number("A0", {Bound::kAny, "deg", ""}) * kDegree;
+  series.an = inRadians(section.numbers("AN", "deg"));
+  series.bn = inRadians(section.numbers("BN", "deg"));
+  series.multiple = section.integer("multiple", "1: the flapping frequency itself");
+  section.finish();
+  if (!section.clean()) return series;
+  if (series.an.size() != series.bn.size()) {
+    section.fault("BN", " has " + std::to_string(series.bn.size()) +
+                            " values: must be as many as AN, " + std::to_string(series.an.size()) +
+                            "; fill up with 0");
+  }
+  if (series.multiple < 1) {
+    section.fault("multiple", " = " + std::to_string(series.multiple) +
+                                  ": must be >= 1; 1 is the flapping frequency itself");
+  }
+  if (!series.constant() && !(frequency > 0.0)) {
+    section.fault("AN", ": harmonics need motion/frequency > 0; give it in Hz or leave A0 alone");
+  }
+  return series;
+}
+
+CaseMotion readFourier(Section& section, bool bare_wing) {
+  FourierMotionSettings settings;
+  settings.frequency = section.number(
+      "frequency",
+      {Bound::kNonNegative, "Hz", "a monarch flaps at about 10.2; 0: constant angles"});
+  const double f = settings.frequency;
+  settings.phi = readSeries(section, "phi_deg", f);
+  settings.psi = readSeries(section, "psi_deg", f);
+  settings.theta = readSeries(section, "theta_R_deg", f);
+  if (!bare_wing) settings.theta_A = readSeries(section, "theta_A_deg", f);
+  settings.pitch = readSeries(section, "theta_B_deg", f);
+  Section body = section.section("body");
+  settings.position = body.vector3("position", "m");
+  settings.velocity = body.vector3("velocity", "m/s");
+  body.finish();
+  CaseMotion result;
+  result.frequency = f;
+  if (section.clean()) result.motion = std::make_shared<FourierMotion>(settings);
+  return result;
+}
+
+/// The table of `file`, or the rows written out in the case; the resolved case holds the rows.
+NumericTable readTableRows(Section& section, TableKind kind) {
+  const auto& columns = TableMotion::columnsOf(kind);
+  const bool has_file = section.has("file");
+  if (has_file == section.has("rows")) {
+    section.take("file");
+    section.take("rows");
+    throw InputError(section.pathOf("file") + ": give either file (a CSV) or rows");
+  }
+  NumericTable table{section.pathOf("rows"), columns, {}};
+  if (has_file) {
+    const YAML::Node file = section.take("file");
+    if (!file.IsScalar()) throw InputError(section.pathOf("file") + ": must be a path; correct it");
+    table = readCsv(file.Scalar()).select(columns);
+    section.put("source", section.has("source")
+                              ? section.text("source")
+                              : std::filesystem::path(file.Scalar()).filename().string());
+    section.put("rows", table.rows);
+  } else {
+    section.put("source", section.has("source") ? section.text("source") : "rows in the case");
+    table.rows = section.rows("rows", columns.size());
+  }
+  return table;
+}
+
+CaseMotion readTable(Section& section, Faults& faults) {
+  CaseMotion result;
+  result.is_table = true;
+  const std::string kind_text = section.choice("kind", {"wing", "body"});
+  result.frequency = section.number(
+      "frequency", {Bound::kNonNegative, "Hz", "0: the motion has no flapping period"});
+  if (kind_text.empty()) return result;
+  const TableKind kind = kind_text == "wing" ? TableKind::kWing : TableKind::kBody;
+  result.is_wing_table = kind == TableKind::kWing;
+  try {
+    const NumericTable table = readTableRows(section, kind);
+    if (!section.clean()) return result;
+    const auto motion = std::make_shared<TableMotion>(table, kind);
+    result.t_begin = motion->tBegin();
+    result.t_end = motion->tEnd();
+    result.motion = motion;
+  } catch (const InputError& e) {
+    faults.add(e.what());
+  }
+  return result;
+}
+
+}  // namespace
+
+CaseMotion readMotion(Section section, bool bare_wing, Faults& faults) {
+  const std::string type = section.choice("type", {"fourier", "table"});
+  CaseMotion result;
+  result.frequency = 1.0;  // unknown: no further fault from it
+  if (type.empty()) return result;
+  result = type == "fourier" ? readFourier(section, bare_wing) : readTable(section, faults);
+  section.finish();
+  return result;
+}
+
+InitialValues readInitial(Section& root) {
+  InitialValues initial;
+  if (!root.has("initial")) {
+    Section section = root.putSection("initial");
+    for (const char* key :
+         {"position", "velocity", "theta_B", "theta_B_dot", "theta_R", "theta_R_dot"}) {
+      section.put(key, std::string("none"));
+    }
+    return initial;
+  }
+  Section section = root.section("initial");
+  initial.position = section.maybeVector3("position", "m");
+  initial.velocity = section.maybeVector3("velocity", "m/s");
+  initial.theta_B = section.maybeNumber("theta_B", {Bound::kAny, "rad", "or none"});
+  initial.theta_B_dot = section.maybeNumber("theta_B_dot", {Bound::kAny, "rad/s", "or none"});
+  initial.theta_R = section.maybeNumber("theta_R", {Bound::kAny, "rad", "or none"});
+  initial.theta_R_dot = section.maybeNumber("theta_R_dot", {Bound::kAny, "rad/s", "or none"});
+  section.finish();
+  return initial;
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,135 @@
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "run/case_parts.h"
+
+namespace monarch_flight {
+
+void readFluid(Section section, Case& c) {
+  const std::string solver = section.choice("solver", {"navier_stokes", "quasi_steady"});
+  c.fluid = solver == "quasi_steady" ? FluidKind::kQuasiSteady : FluidKind::kNavierStokes;
+  const std::string variant = section.choice("blade_element", {"sane_dickinson", "whitney_wood"});
+  c.blade_element = variant == "whitney_wood" ? BladeElementVariant::kWhitneyWood
+                                              : BladeElementVariant::kSaneDickinson;
+  c.air.rho = section.number("density", {Bound::kPositive, "kg/m3", "air at 15 C has 1.225"});
+  c.air.mu = section.number("viscosity", {Bound::kPositive, "Pa s", "air at 15 C has 1.8e-5"});
+  c.gravity = section.number("gravity", {Bound::kNonNegative, "m/s2", "9.81, or 0 for none"});
+  c.air.wind_I = section.vector3("wind", "m/s");
+  section.finish();
+}
+
+void readGrid(Section section, Case& c, Faults& faults) {
+  const std::string level = section.choice("level", {"preview", "standard", "fine", "custom"});
+  if (level.empty()) return;
+  GridSettings& g = c.grid;
+  g = GridSettings::preset(level);
+  const bool custom = level == "custom";  // then every key must be there
+  const auto number = [&](const char* key, double& value, const char* unit) {
+    if (custom || section.has(key)) {
+      value = section.number(key, {Bound::kAny, unit, ""});
+    } else {
+      section.put(key, exactText(value));
+    }
+  };
+  number("cells_per_chord", g.cells_per_chord, "");
+  number("first_cell", g.first_cell, "mean chords");
+  number("growth_plane", g.growth_plane, "");
+  number("growth_normal", g.growth_normal, "");
+  number("far_field", g.far_field, "mean chords");
+  number("margin", g.margin, "mean chords");
+  if (custom || section.has("outer")) {
+    const std::string outer = section.choice("outer", {"rest", "open"});
+    if (!outer.empty()) g.outer = outer;
+  } else {
+    section.put("outer", g.outer);
+  }
+  number("courant_limit", g.courant_limit, "");
+  section.finish();
+  if (section.clean()) faults.add(g.problems());
+}
+
+FreeCoordinates readFree(Section section) {
+  FreeCoordinates free;
+  free.x = section.flag("x");
+  free.z = section.flag("z");
+  free.pitch = section.flag("pitch");
+  free.wing_pitch = section.flag("wing_pitch");
+  section.finish();
+  return free;
+}
+
+void readTime(Section section, double frequency, Case& c) {
+  c.time.t_start = section.number("t_start", {Bound::kAny, "s", "0 is usual"});
+  c.time.period = frequency > 0.0 ? 1.0 / frequency : 0.0;
+  double steps = 0.0;
+  const bool by_step = section.has("dt") || section.has("duration");
+  const bool by_flap = section.has("steps_per_flap") || section.has("flaps");
+  if (by_step && by_flap) {
+    for (const char* key : {"dt", "duration", "steps_per_flap", "flaps"}) section.take(key);
+    section.fault("dt", ": give either steps_per_flap and flaps, or dt and duration, not both");
+  } else if (by_step) {
+    c.time.dt = section.number("dt", {Bound::kPositive, "s", "give the time step"});
+    const double duration =
+        section.number("duration", {Bound::kPositive, "s", "give the length of the run"});
+    steps = std::ceil(duration / c.time.dt * (1.0 - 1e-12));
+  } else {
+    const int per_flap = section.integer("steps_per_flap", "500 is usual");
+    const double flaps = section.number("flaps", {Bound::kPositive, "", "2 is usual"});
+    if (per_flap < 1) {
+      section.fault("steps_per_flap",
+                    " = " + std::to_string(per_flap) + ": must be >= 1; 500 is usual");
+    } else if (section.clean() && !(frequency > 0.0)) {
+      section.fault(
+          "steps_per_flap",
+          ": this motion has no flapping period (motion/frequency is 0); give dt and duration");
+    } else if (section.clean()) {
+      c.time.dt = c.time.period / per_flap;
+      steps = std::round(flaps * per_flap);
+    }
+  }
+  section.finish();
+  if (!section.clean()) return;
+  if (!(steps >= 1.0) || steps > std::numeric_limits<std::uint32_t>::max()) {
+    section.fault("duration", " amounts to " + exactText(steps) +
+                                  " steps: must be 1 to 4294967295; change the length or the step");
+    return;
+  }
+  c.time.steps = static_cast<std::uint32_t>(steps);
+}
+
+void readCoupling(Section section, double mean_chord, Case& c, Faults& faults) {
+  CouplingSettings& s = c.coupling;
+  const std::string relaxation = section.choice("relaxation", {"constant", "aitken"});
+  s.relaxation = relaxation == "constant" ? Relaxation::kConstant : Relaxation::kAitken;
+  s.omega_initial = section.number("omega_initial", {});
+  s.omega_min = section.number("omega_min", {});
+  s.omega_max = section.number("omega_max", {});
+  s.tolerance = section.number("tolerance", {});
+  s.load_tolerance = section.number("load_tolerance", {});
+  s.max_sub_iterations = section.integer("max_sub_iterations", "60 is usual");
+  s.prescribed_steps = section.integer("prescribed_steps", "the published value is 10");
+  const YAML::Node length = section.take("length_scale");
+  if (length.IsDefined() && length.IsScalar() && length.Scalar() == "mean_chord") {
+    section.put("length_scale", std::string("mean_chord"));
+    s.length_scale = mean_chord;
+  } else {
+    s.length_scale = section.number("length_scale", {Bound::kAny, "m", "or mean_chord"});
+  }
+  section.finish();
+  if (section.clean()) faults.add(s.problems());
+}
+
+void readOutput(Section section, Case& c) {
+  c.output.record = section.flag("record");
+  for (auto [key, value] : {std::pair{"surface_every", &c.output.surface_every},
+                            std::pair{"vortices_every", &c.output.vortices_every}}) {
+    *value = section.integer(key, "steps between pictures, 0: never");
+    if (*value < 0) {
+      section.fault(key, " = " + std::to_string(*value) + ": must be >= 0; 0 writes no pictures");
+    }
+  }
+  section.finish();
+}
+
+}  // namespace monarch_flight

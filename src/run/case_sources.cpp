@@ -1,0 +1,188 @@
+#include "run/case_sources.h"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include "monarch_flight/math/errors.h"
+
+namespace monarch_flight {
+namespace {
+
+namespace fs = std::filesystem;
+
+YAML::Node get(const YAML::Node& map, const std::string& key) {
+  return map.IsDefined() && map.IsMap() ? YAML::Node(map[key])
+                                        : YAML::Node(YAML::NodeType::Undefined);
+}
+
+/// Names of the YAML files in a folder, for messages.
+std::string namesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+/// Joins every relative `file` below `node` to `folder`.
+void anchorFiles(YAML::Node node, const fs::path& folder) {
+  if (!node.IsMap()) return;
+  for (auto entry : node) {
+    if (entry.first.Scalar() == "file" && entry.second.IsScalar()) {
+      const fs::path file = entry.second.Scalar();
+      if (file.is_relative()) entry.second = (folder / file).lexically_normal().string();
+    } else {
+      anchorFiles(entry.second, folder);
+    }
+  }
+}
+
+/// A YAML file whose top is a map; InputError naming file, line and column otherwise.
+YAML::Node loadMap(const fs::path& path) {
+  YAML::Node node;
+  try {
+    node = YAML::LoadFile(path.string());
+  } catch (const YAML::BadFile&) {
+    throw InputError(path.string() + ": cannot be read; check the path and its permissions");
+  } catch (const YAML::ParserException& e) {
+    throw InputError(path.string() + ": line " + std::to_string(e.mark.line + 1) + ", column " +
+                     std::to_string(e.mark.column + 1) + " is not YAML: " + e.msg + "; correct it");
+  }
+  if (!node.IsMap()) {
+    throw InputError(path.string() + ": holds no keys; it must be a map as in docs/case_files.md");
+  }
+  anchorFiles(node, fs::absolute(path).parent_path());
+  return node;
+}
+
+/// Lays the file that `section/key` names (stem + suffix in config_dir/insects) below the section.
+void layBelow(YAML::Node root, const std::string& section, const std::string& key,
+              const std::string& suffix, const std::string& config_dir, Faults& faults) {
+  const YAML::Node top = get(root, section);
+  if (!top.IsDefined() || !get(top, key).IsDefined()) return;
+  const std::string name = get(top, key).IsScalar() ? get(top, key).Scalar() : "";
+  const fs::path folder = fs::path(config_dir) / "insects";
+  const fs::path file = folder / (name + suffix);
+  if (name.empty() || !fs::exists(file)) {
+    faults.add(section + "/" + key + " = '" + name + "': " + file.string() +
+               " does not exist; there are " + namesIn(folder));
+    return;
+  }
+  try {
+    YAML::Node merged = overlaid(loadMap(file), top);
+    merged.remove(key);
+    root[section] = merged;
+  } catch (const InputError& e) {
+    faults.add(e.what());
+  }
+}
+
+/// grid:=level takes that level's resolution and extent; the boundary and the Courant limit stay.
+void overrideGrid(YAML::Node root, const std::string& level) {
+  YAML::Node grid(YAML::NodeType::Map);
+  const YAML::Node old = get(root, "grid");
+  grid["level"] = level;
+  for (const char* key : {"outer", "courant_limit"}) {
+    if (old.IsDefined() && get(old, key).IsDefined()) grid[key] = YAML::Clone(get(old, key));
+  }
+  root["grid"] = grid;
+}
+
+/// Keys given twice, at every depth.
+void checkTwins(const YAML::Node& map, const std::string& above, Faults& faults) {
+  std::set<std::string> seen;
+  for (const auto& entry : map) {
+    const std::string key = above + entry.first.Scalar();
+    if (!seen.insert(key).second) faults.add(key + " is given twice; remove one of them");
+    if (entry.second.IsMap()) checkTwins(entry.second, key + "/", faults);
+  }
+}
+
+void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& faults) {
+  const std::map<std::string, std::pair<const char*, const char*>> known{
+      {"fluid", {"fluid", "solver"}},
+      {"flaps", {"time", "flaps"}},
+      {"steps_per_flap", {"time", "steps_per_flap"}},
+      {"record", {"output", "record"}}};
+  for (const auto& [key, value] : overrides) {
+    if (key == "grid") {
+      overrideGrid(root, value);
+      continue;
+    }
+    const auto target = known.find(key);
+    if (target == known.end()) {
+      faults.add(key + ":=" + value +
+                 " is not a known override: known are fluid, grid, flaps, steps_per_flap, record; "
+                 "correct or remove it");
+      continue;
+    }
+    const auto [section, name] = target->second;
+    if (get(root, section).IsDefined() && get(root, section).IsMap()) root[section][name] = value;
+  }
+}
+
+}  // namespace
+
+YAML::Node overlaid(const YAML::Node& base, const YAML::Node& top) {
+  if (!base.IsDefined() || !base.IsMap() || !top.IsMap()) return YAML::Clone(top);
+  const YAML::Node type_below = get(base, "type");
+  const YAML::Node type_above = get(top, "type");
+  if (type_below.IsDefined() && type_above.IsDefined() && type_below.IsScalar() &&
+      type_above.IsScalar() && type_below.Scalar() != type_above.Scalar()) {
+    return YAML::Clone(top);
+  }
+  YAML::Node result = YAML::Clone(base);
+  for (const auto& entry : top) {
+    const std::string key = entry.first.Scalar();
+    const YAML::Node below = get(base, key);
+    result[key] = below.IsDefined() ? overlaid(below, entry.second) : YAML::Clone(entry.second);
+  }
+  return result;
+}
+
+std::string findCase(const std::string& name_or_path, const std::string& config_dir) {
+  const fs::path folder = fs::path(config_dir) / "cases";
+  const fs::path given = name_or_path;
+  const bool is_path = given.has_parent_path() || given.extension() == ".yaml";
+  const fs::path path = is_path ? given : folder / (name_or_path + ".yaml");
+  if (!name_or_path.empty() && fs::is_regular_file(path)) return path.string();
+  throw InputError("case = '" + name_or_path + "': " + path.string() +
+                   " does not exist; give a path or one of " + namesIn(folder));
+}
+
+YAML::Node assembleCase(const std::string& path, const CaseOverrides& overrides,
+                        const std::string& config_dir, Faults& faults) {
+  const YAML::Node given = loadMap(path);
+  checkTwins(given, "", faults);  // before maps are merged
+  YAML::Node root = overlaid(loadMap(fs::path(config_dir) / "defaults.yaml"), given);
+  layBelow(root, "insect", "preset", ".yaml", config_dir, faults);
+  layBelow(root, "motion", "series", "_kinematics.yaml", config_dir, faults);
+  applyOverrides(root, overrides, faults);
+  return root;
+}
+
+std::string sha256Hex(const std::string& text) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  if (EVP_Digest(text.data(), text.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error("OpenSSL cannot compute SHA-256");
+  }
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string hex;
+  for (unsigned int i = 0; i < length; ++i) {
+    hex += kDigits[digest[i] >> 4];
+    hex += kDigits[digest[i] & 15];
+  }
+  return hex;
+}
+
+}  // namespace monarch_flight

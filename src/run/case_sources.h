@@ -1,0 +1,29 @@
+#pragma once
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+
+#include "monarch_flight/run/case.h"
+#include "run/case_reader.h"
+
+namespace monarch_flight {
+
+/// `top` laid over `base`: maps are merged key by key, anything else is replaced. A map of `top`
+/// whose `type` differs from that of the map below replaces it as a whole.
+YAML::Node overlaid(const YAML::Node& base, const YAML::Node& top);
+
+/// The path of a case given by name (config_dir/cases/<name>.yaml) or by path; InputError, naming
+/// the cases there are, when there is no such file.
+std::string findCase(const std::string& name_or_path, const std::string& config_dir);
+
+/// The case file with everything it refers to laid below it: config_dir/defaults.yaml, the insect's
+/// preset (insect/preset), the motion's series (motion/series); and the command line's overrides
+/// above it. Relative paths in `file` keys are joined to the folder of the YAML file that names
+/// them.
+YAML::Node assembleCase(const std::string& path, const CaseOverrides& overrides,
+                        const std::string& config_dir, Faults& faults);
+
+/// SHA-256 of a text, 64 hexadecimal digits.
+std::string sha256Hex(const std::string& text);
+
+}  // namespace monarch_flight
