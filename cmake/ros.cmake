@@ -12,7 +12,7 @@ set(ROS_PACKAGES diagnostic_msgs diagnostic_updater geometry_msgs nav_msgs rosba
 find_package(catkin REQUIRED COMPONENTS message_generation ${ROS_PACKAGES})
 
 add_message_files(DIRECTORY msg FILES CouplingKey.msg FlightState.msg Hello.msg InterfaceState.msg
-  IterationTable.msg ParticipantReply.msg ParticipantRequest.msg PressureFacet.msg SubIteration.msg
+  ParticipantReply.msg ParticipantRequest.msg PressureFacet.msg StepIterations.msg SubIteration.msg
   VortexSample.msg WingLoads.msg)
 generate_messages(DEPENDENCIES std_msgs)
 

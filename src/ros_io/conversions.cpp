@@ -128,6 +128,11 @@ ParticipantReply toMessage(const Reply& reply) {
   out.loads = toMessage(reply.loads);
   out.courant = reply.report.courant;
   out.divergence = reply.report.divergence;
+  out.cells = static_cast<std::uint64_t>(reply.report.cells);
+  const Matrix6d& M = reply.report.added_mass;
+  if (!M.isZero(0.0)) {
+    for (int i = 0; i < 36; ++i) out.added_mass.push_back(M(i / 6, i % 6));
+  }
   out.wall_s = reply.wall_s;
   out.error = reply.error;
   out.surface.reserve(reply.surface.facets.size());
@@ -161,6 +166,10 @@ Reply fromMessage(const ParticipantReply& reply) {
   out.loads = fromMessage(reply.loads);
   out.report.courant = reply.courant;
   out.report.divergence = reply.divergence;
+  out.report.cells = static_cast<long>(reply.cells);
+  for (std::size_t i = 0; i < reply.added_mass.size(); ++i) {
+    out.report.added_mass(static_cast<int>(i) / 6, static_cast<int>(i) % 6) = reply.added_mass[i];
+  }
   out.wall_s = reply.wall_s;
   out.error = reply.error;
   out.surface.facets.reserve(reply.surface.size());
@@ -200,7 +209,11 @@ std::string problem(const ParticipantRequest& request) {
   return problem(request.protocol, request.key);
 }
 
-std::string problem(const ParticipantReply& reply) { return problem(reply.protocol, reply.key); }
+std::string problem(const ParticipantReply& reply) {
+  const std::size_t size = reply.added_mass.size();
+  if (size != 0 && size != 36) return "added mass of " + std::to_string(size) + " numbers, not 36";
+  return problem(reply.protocol, reply.key);
+}
 
 bool finite(const Interface& interface) {
   const BodyState& body = interface.body;

@@ -18,6 +18,11 @@ std::string LockstepCounters::describe() const {
          std::to_string(foreign) + " foreign, " + std::to_string(malformed) + " malformed";
 }
 
+std::string inSeconds(double s) {
+  const std::string text = std::to_string(s);
+  return text.substr(0, text.find('.') + 2) + " s";
+}
+
 Hello makeHello(const LockstepIdentity& identity, std::uint64_t run, const std::string& refusal) {
   Hello hello;
   hello.protocol = kProtocolVersion;

@@ -9,11 +9,8 @@ namespace {
 
 // Longest uninterrupted wait: an interrupt is noticed within it. Messages and lost connections end it.
 const ros::WallDuration kSlice(0.1);
-
-std::string seconds(double s) {
-  std::string text = std::to_string(s);
-  return text.substr(0, text.find('.') + 2) + " s";
-}
+// ABORT is a courtesy: a node that computes, hangs or is gone is not waited for any longer.
+constexpr double kAbortLimit = 2.0;
 
 ros::WallDuration slice(const ros::WallTime& deadline) {
   const ros::WallDuration left = deadline - ros::WallTime::now();
@@ -23,16 +20,16 @@ ros::WallDuration slice(const ros::WallTime& deadline) {
 }  // namespace
 
 RosParticipant::RosParticipant(const ros::NodeHandle& node, const LockstepIdentity& identity,
-                               std::uint64_t run, const LockstepLimits& limits, const bool& stop)
+                               LockstepRun& run)
     : identity_(identity),
       run_(run),
-      limits_(limits),
-      stop_(stop),
       node_(node, roleName(identity.role)),
-      hello_out_(node_, "coordinator_hello", true, queue_),
-      requests_(node_, "request", false, queue_),
-      hello_in_(subscribeOn(queue_, node_, "hello", &RosParticipant::onHello, this)),
-      replies_(subscribeOn(queue_, node_, "reply", &RosParticipant::onReply, this)) {}
+      hello_out_(node_, "coordinator_hello", true, run.queue),
+      requests_(node_, "request", false, run.queue),
+      hello_in_(subscribeOn(run.queue, node_, "hello", &RosParticipant::onHello, this)),
+      replies_(subscribeOn(run.queue, node_, "reply", &RosParticipant::onReply, this)) {
+  run_.participants.push_back(this);
+}
 
 std::string RosParticipant::name() const {
   return std::string("the ") + roleName(identity_.role) + " node" +
@@ -44,10 +41,10 @@ bool RosParticipant::connected() const { return answer_ && requests_.heardBy(ans
 bool RosParticipant::ready() const { return connected() && replies_.getNumPublishers() > 0; }
 
 void RosParticipant::connect() {
-  hello_out_.publish(makeHello(identity_, run_));
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(limits_.connect_s);
+  hello_out_.publish(makeHello(identity_, run_.id));
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(run_.limits.connect_s);
   while (!ready()) {
-    queue_.callAvailable(slice(deadline));
+    run_.queue.callAvailable(slice(deadline));
     if (answer_ && !answer_->refusal.empty()) {
       throw ExchangeError(name() + " refuses the run: " + answer_->refusal);
     }
@@ -55,56 +52,43 @@ void RosParticipant::connect() {
       const std::string why = disagreement(identity_, *answer_);
       if (!why.empty()) throw ExchangeError("cannot run with " + name() + ": " + why);
     }
-    if (stop_ || !ros::ok()) throw ExchangeError("interrupted while waiting for " + name());
+    if (*run_.stop || !ros::ok()) throw ExchangeError("interrupted while waiting for " + name());
     if (ros::WallTime::now() >= deadline) {
       throw ExchangeError(name() + " did not answer the handshake within " +
-                          seconds(limits_.connect_s) + ": is it running, in namespace " +
+                          inSeconds(run_.limits.connect_s) + ": is it running, in namespace " +
                           node_.getNamespace() + " of this master?");
     }
   }
 }
 
-void RosParticipant::requireAlive(const std::string& waiting_for) const {
-  if (!connected()) throw ExchangeError(name() + " is lost (connection closed) at " + waiting_for);
-  if (stop_ || !ros::ok()) {
-    throw ExchangeError("interrupted while waiting for " + name() + " at " + waiting_for);
+void RosParticipant::requireAlive(const ExchangeKey& key) const {
+  const std::string where = " while waiting for " + name() + " at " + describe(key);
+  if (key.phase != Phase::kAbort && (*run_.stop || !ros::ok())) {
+    throw ExchangeError("interrupted" + where);
+  }
+  if (!connected()) throw ExchangeError(name() + " is lost (connection closed)" + where);
+  if (key.phase == Phase::kAbort) return;
+  for (const RosParticipant* other : run_.participants) {
+    if (!other->connected()) {
+      throw ExchangeError(other->name() + " is lost (connection closed)" + where);
+    }
   }
 }
 
 double RosParticipant::limitOf(Phase phase) const {
-  if (phase == Phase::kStart) return limits_.start_s;
-  if (phase == Phase::kAbort) return std::min(2.0, limits_.exchange_s);
-  return limits_.exchange_s;
+  if (phase == Phase::kStart) return run_.limits.start_s;
+  if (phase == Phase::kAbort) return std::min(kAbortLimit, run_.limits.exchange_s);
+  return run_.limits.exchange_s;
 }
 
 Reply RosParticipant::exchange(const Request& request) {
   const ParticipantRequest message = toMessage(request);
   pending_ = message.key;
   reply_.reset();
-  waiting_ = true;
-  queue_.callAvailable();  // a node that has gone since the last exchange
-  if (!connected()) requireAlive(describe(request.key));
+  run_.queue.callAvailable();  // takes note of nodes that have gone since the last exchange
+  requireAlive(request.key);
   requests_.publish(message);
-  const double limit = limitOf(request.key.phase);
-  const ros::WallTime begin = ros::WallTime::now();
-  const ros::WallTime deadline = begin + ros::WallDuration(limit);
-  bool again = false;
-  while (!reply_) {
-    queue_.callAvailable(slice(deadline));
-    if (reply_) break;
-    if (request.key.phase != Phase::kAbort || !connected()) requireAlive(describe(request.key));
-    const ros::WallTime now = ros::WallTime::now();
-    if (now >= deadline) {
-      throw ExchangeError(name() + " did not answer " + describe(request.key) + " within " +
-                          seconds(limit) + " (watchdog); ignored messages: " +
-                          counters_.describe());
-    }
-    if (!again && now >= begin + ros::WallDuration(0.5 * limit)) {
-      requests_.publish(message);
-      again = true;
-    }
-  }
-  waiting_ = false;
+  await(message, request.key);
   Reply reply = fromMessage(*reply_);
   if (reply.error.empty() && !(finite(reply.interface) && reply.loads.finite())) {
     reply.error = name() + " answered a number that is not finite at " + describe(reply.key);
@@ -112,25 +96,31 @@ Reply RosParticipant::exchange(const Request& request) {
   return reply;
 }
 
-void RosParticipant::finish() noexcept {
-  try {
-    ParticipantRequest farewell;
-    farewell.protocol = kProtocolVersion;
-    farewell.key.run = run_;
-    farewell.key.phase = CouplingKey::ABORT;
-    waiting_ = false;
-    queue_.callAvailable();
-    if (!connected()) return;
-    requests_.publish(farewell);
-    const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(2.0);
-    while (connected() && ros::WallTime::now() < deadline) queue_.callAvailable(slice(deadline));
-  } catch (const std::exception& e) {
-    ROS_WARN("%s could not be told that the run is over: %s", name().c_str(), e.what());
+void RosParticipant::await(const ParticipantRequest& message, const ExchangeKey& key) {
+  const double limit = limitOf(key.phase);
+  const ros::WallTime begin = ros::WallTime::now();
+  const ros::WallTime deadline = begin + ros::WallDuration(limit);
+  const ros::WallTime halfway = begin + ros::WallDuration(0.5 * limit);
+  bool again = false;
+  while (true) {
+    run_.queue.callAvailable(slice(deadline));
+    if (reply_) return;
+    requireAlive(key);
+    const ros::WallTime now = ros::WallTime::now();
+    if (now >= deadline) {
+      throw ExchangeError(name() + " did not answer " + describe(key) + " within " +
+                          inSeconds(limit) + " (watchdog); messages ignored so far: " +
+                          counters_.describe());
+    }
+    if (!again && now >= halfway) {
+      requests_.publish(message);
+      again = true;
+    }
   }
 }
 
 void RosParticipant::onHello(const HelloConstPtr& hello) {
-  if (hello->run != run_) {
+  if (hello->run != run_.id) {
     ++counters_.foreign;
   } else if (answer_) {
     ++counters_.repeated;
@@ -142,11 +132,11 @@ void RosParticipant::onHello(const HelloConstPtr& hello) {
 void RosParticipant::onReply(const ParticipantReplyConstPtr& reply) {
   if (!problem(*reply).empty()) {
     ++counters_.malformed;
-  } else if (reply->key.run != run_) {
+  } else if (reply->key.run != run_.id) {
     ++counters_.foreign;
   } else if (fromMessage(reply->key) != fromMessage(pending_)) {
     ++counters_.late;
-  } else if (!waiting_ || reply_) {
+  } else if (reply_) {
     ++counters_.repeated;
   } else {
     reply_ = reply;

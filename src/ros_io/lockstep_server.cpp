@@ -16,11 +16,6 @@ std::tuple<std::uint32_t, std::uint8_t, std::uint32_t> order(const CouplingKey& 
   return std::make_tuple(key.step, key.phase, key.iteration);
 }
 
-std::string seconds(double s) {
-  std::string text = std::to_string(s);
-  return text.substr(0, text.find('.') + 2) + " s";
-}
-
 }  // namespace
 
 LockstepServer::LockstepServer(const ros::NodeHandle& node, const LockstepIdentity& identity,
@@ -46,7 +41,7 @@ void LockstepServer::serve() {
   last_heard_ = ros::WallTime::now();
   while (!ended_) {
     queue_.callAvailable(kSlice);
-    if (ended_) return;
+    if (ended_) break;
     if (stop_ || !ros::ok()) throw ExchangeError("interrupted");
     if (!coordinatorListens()) {
       throw ExchangeError("the coordinator (" + coordinator_->node +
@@ -55,8 +50,17 @@ void LockstepServer::serve() {
     const double limit = iterating_ ? limits_.silence_s : limits_.silence_s + 2.0 * limits_.start_s;
     if (ros::WallTime::now() > last_heard_ + ros::WallDuration(limit)) {
       throw ExchangeError("the coordinator (" + coordinator_->node + ") has been silent for " +
-                          seconds(limit));
+                          inSeconds(limit));
     }
+  }
+  letCoordinatorLeave();
+}
+
+void LockstepServer::letCoordinatorLeave() {
+  // The launcher ends everything with the first node that goes; the coordinator still closes its files.
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(limits_.exchange_s);
+  while (coordinatorListens() && !stop_ && ros::ok() && ros::WallTime::now() < deadline) {
+    queue_.callAvailable(kSlice);
   }
 }
 
@@ -67,7 +71,7 @@ void LockstepServer::waitForCoordinator() {
     if (!refusal_.empty()) refuse();
     if (stop_ || !ros::ok()) throw ExchangeError("interrupted while waiting for the coordinator");
     if (ros::WallTime::now() > deadline) {
-      throw ExchangeError("no coordinator appeared within " + seconds(limits_.connect_s) +
+      throw ExchangeError("no coordinator appeared within " + inSeconds(limits_.connect_s) +
                           ": is it running, in the same namespace of this master?");
     }
   }

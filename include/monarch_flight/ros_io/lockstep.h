@@ -43,6 +43,9 @@ struct LockstepCounters {
 /// Depth of every queue of the protocol; nothing is lost while at most this many messages wait.
 constexpr std::uint32_t kLockstepQueue = 8;
 
+/// "12.5 s", for messages.
+std::string inSeconds(double s);
+
 /// Hello of this node; `run` is 0 only before the coordinator's number is known.
 Hello makeHello(const LockstepIdentity& identity, std::uint64_t run, const std::string& refusal = "");
 /// Why `other` does not fit (protocol, role, case), naming both values; empty when it fits.

@@ -16,7 +16,7 @@ class LockstepServer {
   LockstepServer(const ros::NodeHandle& node, const LockstepIdentity& identity,
                  Participant& participant, const LockstepLimits& limits, const bool& stop);
 
-  /// Serves one run, until the coordinator ends it. Throws ExchangeError: no coordinator within
+  /// Serves one run, until the coordinator has ended it (ABORT) and left. Throws ExchangeError: no coordinator within
   /// connect_s, disagreement in the handshake, coordinator lost or silent for silence_s, interrupted.
   void serve();
 
@@ -26,6 +26,7 @@ class LockstepServer {
   void onHello(const HelloConstPtr& hello);
   void onRequest(const ParticipantRequestConstPtr& request);
   void waitForCoordinator();
+  void letCoordinatorLeave();
   [[noreturn]] void refuse();
   Reply answer(const Request& request);
   bool coordinatorListens() const;

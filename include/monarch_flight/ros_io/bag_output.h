@@ -1,0 +1,27 @@
+#pragma once
+#include <rosbag/bag.h>
+
+#include <string>
+
+#include "monarch_flight/ros_io/flight_messages.h"
+
+namespace monarch_flight {
+
+/// Writes messages into a bag, under `<path>.active` until it is closed. Every failure of the disk is
+/// an OutputError naming the file; what was written before stays under the active name.
+class BagOutput : public MessageOutput {
+ public:
+  explicit BagOutput(const std::string& path);
+  ~BagOutput() override;
+  void open(const std::vector<StampedMessage>& topics) override;
+  void write(const StampedMessage& message) override;
+  /// Closes and gives the bag its name.
+  void close() override;
+
+ private:
+  std::string path_;
+  rosbag::Bag bag_;
+  bool failed_ = false;
+};
+
+}  // namespace monarch_flight

@@ -1,0 +1,39 @@
+#pragma once
+#include <visualization_msgs/MarkerArray.h>
+
+#include <string>
+
+#include "monarch_flight/fluid/fluid_model.h"
+#include "monarch_flight/insect/insect.h"
+#include "monarch_flight/insect/prescribed_motion.h"
+
+namespace monarch_flight {
+
+/// Reference of the pressure coefficient Cp = p / (rho U_ref^2 / 2).
+struct PressureReference {
+  double speed = 1.0;    ///< U_ref [m/s]
+  double dynamic = 1.0;  ///< rho U_ref^2 / 2 [Pa]
+};
+
+/// U_ref is the largest speed of the wing's tip through the air that the prescribed motion reaches in
+/// [t_start, t_start + duration]; 1 m/s when it does not move. One constant for the whole run, so that
+/// colours of different times compare.
+PressureReference pressureReference(const Insect& insect, const PrescribedMotion& motion,
+                                    const Air& air, double t_start, double duration);
+
+/// Colours run from -kPressureRange (blue) to +kPressureRange (red).
+constexpr double kPressureRange = 2.0;
+
+/// Both sides of the right wing as triangles coloured by Cp in frame right_wing and, unless a bare
+/// wing, the mirror image in left_wing; the sides lie `lift` [m] off the wing's plane. Locked to the
+/// frames: they move with the wings until the next picture.
+visualization_msgs::MarkerArray pressureMarkers(const SurfacePressure& surface,
+                                                const PressureReference& reference, bool bare_wing,
+                                                double lift, const ros::Time& stamp);
+
+/// Colour bar with numbers, upright in world, beside the insect; moves with base_link. `span` is the
+/// wing's span [m] (all sizes scale with it), `R_WB` takes base_link components to world components.
+visualization_msgs::MarkerArray pressureLegend(const PressureReference& reference, double span,
+                                               const Eigen::Matrix3d& R_WB, const ros::Time& stamp);
+
+}  // namespace monarch_flight

@@ -1,0 +1,293 @@
+#include "monarch_flight/ros_io/flight_messages.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "monarch_flight/ros_io/conversions.h"
+#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/urdf.h"
+#include "monarch_flight/viz/vortex_cloud.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr double kPathPosesPerFlap = 32.0;  // at first
+constexpr std::size_t kPathLimit = 400;     // poses; then every second goes and the stride doubles
+constexpr double kDiagnosticsPerFlap = 20.0;
+constexpr double kStepsWithoutPeriod = 1000.0;  // stands for a flap where there is none
+constexpr double kLift = 0.01;                  // of the coloured sides off the wing [mean chords]
+
+std::uint32_t stride(const TimeGrid& time, double per_flap) {
+  const double flap = time.period > 0.0 ? time.stepsPerFlap() : kStepsWithoutPeriod;
+  return static_cast<std::uint32_t>(std::max(1.0, std::round(flap / per_flap)));
+}
+
+geometry_msgs::Pose pose(const BodyState& body) {
+  geometry_msgs::Pose out;
+  out.position = toPoint(nedToEnu() * body.x);
+  out.orientation = toQuaternion(baseLinkAttitude(body));
+  return out;
+}
+
+nav_msgs::Odometry odometry(const BodyState& body, const ros::Time& stamp) {
+  nav_msgs::Odometry out;
+  out.header.stamp = stamp;
+  out.header.frame_id = frames::kWorld;
+  out.child_frame_id = frames::kBaseLink;
+  out.pose.pose = pose(body);
+  out.twist.twist.linear = toVector3(frdToFlu() * body.R_IB.transpose() * body.v);
+  out.twist.twist.angular = toVector3(frdToFlu() * body.Omega_B);
+  return out;
+}
+
+sensor_msgs::JointState jointState(const JointAngles& a, bool bare_wing, const ros::Time& stamp) {
+  sensor_msgs::JointState out;
+  out.header.stamp = stamp;
+  const auto add = [&out](const char* name, const Coordinate& c) {
+    out.name.push_back(name);
+    out.position.push_back(c.q);
+    out.velocity.push_back(c.qd);
+  };
+  add(joints::kRightFlap, a.phi);
+  add(joints::kRightDeviation, a.psi);
+  add(joints::kRightPitch, a.theta);
+  if (bare_wing) return out;
+  add(joints::kLeftFlap, a.phi);
+  add(joints::kLeftDeviation, a.psi);
+  add(joints::kLeftPitch, a.theta);
+  add(joints::kAbdomen, a.theta_A);
+  return out;
+}
+
+// The left wing's loads, in its own axes, are the mirror image of the right wing's.
+geometry_msgs::WrenchStamped wrench(const Loads& loads, bool left, const ros::Time& stamp) {
+  const double side = left ? -1.0 : 1.0;
+  geometry_msgs::WrenchStamped out;
+  out.header.stamp = stamp;
+  out.header.frame_id = left ? frames::kLeftWing : frames::kRightWing;
+  const Eigen::Vector3d f = loads.force(), m = loads.moment();
+  out.wrench.force = toVector3({f.x(), side * f.y(), f.z()});
+  out.wrench.torque = toVector3({side * m.x(), m.y(), side * m.z()});
+  return out;
+}
+
+StepIterations iterations(const CommittedStep& step, const ros::Time& stamp) {
+  StepIterations out;
+  out.header.stamp = stamp;
+  out.step = step.step;
+  out.converged = step.converged;
+  out.prescribed = step.prescribed;
+  out.rows.reserve(step.iterations.size());
+  for (const IterationRecord& record : step.iterations) out.rows.push_back(toMessage(record));
+  return out;
+}
+
+FlightState flightState(const CommittedStep& step, const ros::Time& stamp) {
+  const auto triple = [](const Coordinate& c) {
+    return boost::array<double, 3>{{c.q, c.qd, c.qdd}};
+  };
+  FlightState out;
+  out.header.stamp = stamp;
+  out.header.frame_id = frames::kWorldNed;
+  out.step = step.step;
+  out.t = step.t;
+  out.interface = toMessage(step.interface);
+  out.phi = triple(step.angles.phi);
+  out.psi = triple(step.angles.psi);
+  out.theta_a = triple(step.angles.theta_A);
+  out.loads = toMessage(step.loads);
+  for (int i = 0; i < 3; ++i) out.force[i] = step.force_I[i];
+  out.sub_iterations = static_cast<std::uint32_t>(step.iterations.size());
+  out.converged = step.converged;
+  out.courant = step.fluid.courant;
+  out.divergence = step.fluid.divergence;
+  std::copy(step.wall_s.begin(), step.wall_s.end(), out.wall_s.begin());
+  out.exchange_s = step.exchange_s;
+  return out;
+}
+
+diagnostic_msgs::KeyValue entry(const char* key, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  diagnostic_msgs::KeyValue out;
+  out.key = key;
+  out.value = text;
+  return out;
+}
+
+template <class Message>
+StampedMessage prototype(const char* topic, bool latched = false) {
+  return {topic, ros::Time(), Message(), latched};
+}
+
+bool due(std::uint32_t step, int every) {
+  return every > 0 && step % static_cast<std::uint32_t>(every) == 0;
+}
+
+}  // namespace
+
+ros::Time stampOf(std::uint32_t step, const TimeGrid& time) {
+  const auto ns = static_cast<std::uint64_t>(std::llround(step * time.dt * 1e9));
+  return ros::Time(static_cast<std::uint32_t>(1 + ns / 1000000000ull),
+                   static_cast<std::uint32_t>(ns % 1000000000ull));
+}
+
+FlightMessages::FlightMessages(const Case& c)
+    : case_(c),
+      path_stride_(stride(c.time, kPathPosesPerFlap)),
+      diagnostics_stride_(stride(c.time, kDiagnosticsPerFlap)) {
+  const double whole = c.time.steps * c.time.dt;
+  const double duration = c.time.period > 0.0 ? std::min(c.time.period, whole) : whole;
+  pressure_ = pressureReference(c.insect, *c.motion, c.air, c.time.t_start, duration);
+  path_.header.frame_id = frames::kWorld;
+}
+
+std::vector<StampedMessage> FlightMessages::topics() const {
+  std::vector<StampedMessage> out = {
+      prototype<rosgraph_msgs::Clock>(topics::kClock),
+      prototype<tf2_msgs::TFMessage>(topics::kTf),
+      prototype<tf2_msgs::TFMessage>(topics::kTfStatic, true),
+      prototype<sensor_msgs::JointState>(topics::kJointStates),
+      prototype<diagnostic_msgs::DiagnosticArray>(topics::kDiagnostics),
+      prototype<std_msgs::String>(topics::kCase, true),
+      prototype<FlightState>(topics::kState),
+      prototype<nav_msgs::Odometry>(topics::kOdometry),
+      prototype<nav_msgs::Path>(topics::kPath, true),
+      prototype<geometry_msgs::WrenchStamped>(topics::kRightWrench),
+      prototype<visualization_msgs::MarkerArray>(topics::kPressure, true),
+      prototype<sensor_msgs::PointCloud2>(topics::kVortices),
+      prototype<StepIterations>(topics::kIterations)};
+  if (!case_.insect.bare_wing) {
+    out.push_back(prototype<geometry_msgs::WrenchStamped>(topics::kLeftWrench));
+  }
+  return out;
+}
+
+std::vector<StampedMessage> FlightMessages::opening() const {
+  const ros::Time stamp = stampOf(0, case_.time);
+  tf2_msgs::TFMessage fixed;
+  fixed.transforms = staticTransforms(case_.insect, stamp);
+  std_msgs::String text;
+  text.data = case_.resolved_yaml;
+  return {{topics::kTfStatic, stamp, fixed, true}, {topics::kCase, stamp, text, true}};
+}
+
+std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
+  const ros::Time stamp = stampOf(step.step, case_.time);
+  const bool bare = case_.insect.bare_wing;
+  std::vector<StampedMessage> out;
+  out.reserve(12);
+  rosgraph_msgs::Clock clock;
+  clock.clock = stamp;
+  tf2_msgs::TFMessage moving;
+  moving.transforms = movingTransforms(case_.insect, step.interface.body, step.angles, stamp);
+  out.push_back({topics::kClock, stamp, clock});
+  out.push_back({topics::kTf, stamp, std::move(moving)});
+  out.push_back({topics::kJointStates, stamp, jointState(step.angles, bare, stamp)});
+  out.push_back({topics::kState, stamp, flightState(step, stamp)});
+  out.push_back({topics::kOdometry, stamp, odometry(step.interface.body, stamp)});
+  out.push_back({topics::kRightWrench, stamp, wrench(step.loads, false, stamp)});
+  if (!bare) out.push_back({topics::kLeftWrench, stamp, wrench(step.loads, true, stamp)});
+  out.push_back({topics::kIterations, stamp, iterations(step, stamp)});
+  if (growPath(step, stamp)) out.push_back({topics::kPath, stamp, path_, true});
+  if (step.step % diagnostics_stride_ == 0 || !step.converged) {
+    out.push_back({topics::kDiagnostics, stamp, diagnostics(step, stamp)});
+  }
+  addPictures(step, stamp, out);
+  return out;
+}
+
+bool FlightMessages::growPath(const CommittedStep& step, const ros::Time& stamp) {
+  if (step.step % path_stride_ != 0) return false;
+  if (path_.poses.size() >= kPathLimit) {
+    std::vector<geometry_msgs::PoseStamped> kept;
+    for (std::size_t i = 0; i < path_.poses.size(); i += 2) kept.push_back(path_.poses[i]);
+    path_.poses = std::move(kept);
+    path_stride_ *= 2;
+    if (step.step % path_stride_ != 0) return false;
+  }
+  geometry_msgs::PoseStamped here;
+  here.header.stamp = stamp;
+  here.header.frame_id = frames::kWorld;
+  here.pose = pose(step.interface.body);
+  path_.header.stamp = stamp;
+  path_.poses.push_back(here);
+  return true;
+}
+
+void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& stamp,
+                                 std::vector<StampedMessage>& out) const {
+  const Insect& insect = case_.insect;
+  if (!step.surface.facets.empty()) {
+    visualization_msgs::MarkerArray picture =
+        pressureMarkers(step.surface, pressure_, insect.bare_wing,
+                        kLift * insect.planform.meanChord(), stamp);
+    const visualization_msgs::MarkerArray legend = pressureLegend(
+        pressure_, insect.planform.span(), baseLinkAttitude(step.interface.body), stamp);
+    picture.markers.insert(picture.markers.end(), legend.markers.begin(), legend.markers.end());
+    out.push_back({topics::kPressure, stamp, std::move(picture), true});
+  }
+  const bool flow = case_.fluid == FluidKind::kNavierStokes;
+  if (flow && step.step > 0 && due(step.step, case_.output.vortices_every)) {
+    out.push_back({topics::kVortices, stamp,
+                   vortexCloud(step.vortices, insect, step.angles, stamp)});
+  }
+}
+
+diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep& step,
+                                                             const ros::Time& stamp) const {
+  using diagnostic_msgs::DiagnosticStatus;
+  DiagnosticStatus coupling, solvers;
+  coupling.name = "coordinator: coupling";
+  solvers.name = "coordinator: solvers";
+  coupling.hardware_id = solvers.hardware_id = "monarch_flight";
+  coupling.level = step.converged ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
+  coupling.message = !step.converged ? "step not converged"
+                     : step.prescribed ? "prescribed step"
+                                       : "converged";
+  coupling.values = {entry("step", step.step), entry("t [s]", step.t),
+                     entry("sub-iterations", static_cast<double>(step.iterations.size()))};
+  if (!step.iterations.empty()) {
+    const IterationRecord& last = step.iterations.back();
+    coupling.values.push_back(entry("residual x/c", last.residual[0]));
+    coupling.values.push_back(entry("residual z/c", last.residual[1]));
+    coupling.values.push_back(entry("residual theta_B [rad]", last.residual[2]));
+    coupling.values.push_back(entry("residual theta_R [rad]", last.residual[3]));
+    coupling.values.push_back(entry("load residual", last.load_residual));
+    coupling.values.push_back(entry("relaxation", last.relaxation));
+  }
+  const bool fast = step.fluid.courant > 0.9 * case_.grid.courant_limit;
+  solvers.level = fast ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+  solvers.message = fast ? "Courant number close to its limit" : "running";
+  solvers.values = {entry("Courant number", step.fluid.courant),
+                    entry("divergence", step.fluid.divergence),
+                    entry("fluid [s]", step.wall_s[0]),
+                    entry("flight [s]", step.wall_s[1]),
+                    entry("wing [s]", step.wall_s[2]),
+                    entry("exchange [s]", step.exchange_s)};
+  diagnostic_msgs::DiagnosticArray out;
+  out.header.stamp = stamp;
+  out.status = {coupling, solvers};
+  return out;
+}
+
+MessageSink::MessageSink(const Case& c, std::vector<MessageOutput*> outputs)
+    : messages_(c), outputs_(std::move(outputs)) {
+  const std::vector<StampedMessage> topics = messages_.topics();
+  for (MessageOutput* output : outputs_) output->open(topics);
+  write(messages_.opening());
+}
+
+void MessageSink::onStep(const CommittedStep& step) { write(messages_.of(step)); }
+
+void MessageSink::onEnd(const std::string&) {
+  for (MessageOutput* output : outputs_) output->close();
+}
+
+void MessageSink::write(const std::vector<StampedMessage>& messages) {
+  for (const StampedMessage& message : messages) {
+    for (MessageOutput* output : outputs_) output->write(message);
+  }
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,125 @@
+#include "monarch_flight/viz/pressure_markers.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/colours.h"
+
+namespace monarch_flight {
+namespace {
+
+visualization_msgs::Marker blank(const char* frame, const std::string& group, int id, int type,
+                                 const ros::Time& stamp) {
+  visualization_msgs::Marker out;
+  out.header.frame_id = frame;
+  out.header.stamp = stamp;
+  out.ns = group;
+  out.id = id;
+  out.type = type;
+  out.action = visualization_msgs::Marker::ADD;
+  out.pose.orientation.w = 1.0;
+  out.scale.x = out.scale.y = out.scale.z = 1.0;
+  out.color.r = out.color.g = out.color.b = out.color.a = 1.0f;
+  out.frame_locked = true;
+  return out;
+}
+
+// One rectangle in the plane z as two triangles with a colour each.
+void addFacet(visualization_msgs::Marker& marker, const SurfacePressure::Facet& facet, double side,
+              double z, const std_msgs::ColorRGBA& colour) {
+  const auto corner = [&](double i, double j) {
+    return toPoint({facet.x + 0.5 * i * facet.dx, side * (facet.y + 0.5 * j * facet.dy), z});
+  };
+  const geometry_msgs::Point a = corner(-1, -1), b = corner(1, -1), c = corner(1, 1),
+                             d = corner(-1, 1);
+  marker.points.insert(marker.points.end(), {a, b, c, a, c, d});
+  marker.colors.insert(marker.colors.end(), {colour, colour});
+}
+
+visualization_msgs::Marker wing(const SurfacePressure& surface, const PressureReference& reference,
+                                bool left, double lift, const ros::Time& stamp) {
+  visualization_msgs::Marker out = blank(left ? frames::kLeftWing : frames::kRightWing, "pressure",
+                                         left ? 1 : 0, visualization_msgs::Marker::TRIANGLE_LIST,
+                                         stamp);
+  out.points.reserve(12 * surface.facets.size());
+  out.colors.reserve(4 * surface.facets.size());
+  const double scale = 1.0 / (reference.dynamic * kPressureRange);
+  for (const SurfacePressure::Facet& facet : surface.facets) {
+    const double side = left ? -1.0 : 1.0;
+    addFacet(out, facet, side, -lift, divergingColour(scale * facet.p_upper));
+    addFacet(out, facet, side, lift, divergingColour(scale * facet.p_lower));
+  }
+  return out;
+}
+
+}  // namespace
+
+PressureReference pressureReference(const Insect& insect, const PrescribedMotion& motion,
+                                    const Air& air, double t_start, double duration) {
+  constexpr int kSamples = 200;
+  const Eigen::Vector3d tip(0.0, insect.planform.yTip(), 0.0);
+  double fastest = 0.0;
+  for (int i = 0; i <= kSamples; ++i) {
+    const PrescribedState state = motion.at(t_start + duration * i / kSamples);
+    const WingMotion wing = rightWingMotion(insect, state.body, state.angles);
+    const Eigen::Vector3d wind = wing.R_IW.transpose() * air.wind_I;
+    fastest = std::max(fastest, (wing.v_W + wing.omega_W.cross(tip) - wind).norm());
+  }
+  PressureReference out;
+  out.speed = fastest > 0.0 ? fastest : 1.0;
+  out.dynamic = 0.5 * air.rho * out.speed * out.speed;
+  return out;
+}
+
+visualization_msgs::MarkerArray pressureMarkers(const SurfacePressure& surface,
+                                                const PressureReference& reference, bool bare_wing,
+                                                double lift, const ros::Time& stamp) {
+  visualization_msgs::MarkerArray out;
+  out.markers.push_back(wing(surface, reference, false, lift, stamp));
+  if (!bare_wing) out.markers.push_back(wing(surface, reference, true, lift, stamp));
+  return out;
+}
+
+visualization_msgs::MarkerArray pressureLegend(const PressureReference& reference, double span,
+                                               const Eigen::Matrix3d& R_WB,
+                                               const ros::Time& stamp) {
+  constexpr int kBars = 24, kNumbers = 5;
+  const double height = 0.9 * span, width = 0.07 * span;
+  const Eigen::Vector3d foot(0.0, -1.6 * span, -0.3 * span);  // world axes, from the body
+  const auto at = [&](double right, double up) {
+    return toPoint(R_WB.transpose() * (foot + Eigen::Vector3d(right, 0.0, up)));
+  };
+  visualization_msgs::MarkerArray out;
+  visualization_msgs::Marker bar = blank(frames::kBaseLink, "legend", 0,
+                                         visualization_msgs::Marker::CUBE_LIST, stamp);
+  bar.scale.x = width;
+  bar.scale.y = width;
+  bar.scale.z = height / kBars;
+  for (int i = 0; i < kBars; ++i) {
+    const double s = (i + 0.5) / kBars;
+    bar.points.push_back(at(0.0, s * height));
+    bar.colors.push_back(divergingColour(2.0 * s - 1.0));
+  }
+  out.markers.push_back(bar);
+  const auto write = [&](const char* text, double right, double up) {
+    visualization_msgs::Marker label =
+        blank(frames::kBaseLink, "legend", static_cast<int>(out.markers.size()),
+              visualization_msgs::Marker::TEXT_VIEW_FACING, stamp);
+    label.pose.position = at(right, up);
+    label.scale.z = 0.1 * span;
+    label.text = text;
+    out.markers.push_back(label);
+  };
+  char text[64];
+  for (int i = 0; i < kNumbers; ++i) {
+    const double s = static_cast<double>(i) / (kNumbers - 1);
+    std::snprintf(text, sizeof text, "%+.1f", kPressureRange * (2.0 * s - 1.0));
+    write(text, 0.22 * span, s * height);
+  }
+  std::snprintf(text, sizeof text, "Cp  (U_ref = %.2f m/s)", reference.speed);
+  write(text, 0.0, height + 0.15 * span);
+  return out;
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,65 @@
+#include "monarch_flight/viz/vortex_cloud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/colours.h"
+
+namespace monarch_flight {
+namespace {
+
+// PCL's and rviz's packing of a colour into the bits of a float.
+float packed(const std_msgs::ColorRGBA& colour) {
+  const auto byte = [](float c) { return static_cast<std::uint32_t>(std::lround(255.0f * c)); };
+  const std::uint32_t bits = byte(colour.r) << 16 | byte(colour.g) << 8 | byte(colour.b);
+  float out;
+  std::memcpy(&out, &bits, sizeof out);
+  return out;
+}
+
+}  // namespace
+
+sensor_msgs::PointCloud2 vortexCloud(const std::vector<VortexPoint>& points, const Insect& insect,
+                                     const JointAngles& angles, const ros::Time& stamp) {
+  static const char* const kFields[] = {"x", "y", "z", "rgb", "q", "omega_y"};
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.stamp = stamp;
+  cloud.header.frame_id = frames::kBaseLink;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    sensor_msgs::PointField field;
+    field.name = kFields[i];
+    field.offset = 4 * i;
+    field.datatype = sensor_msgs::PointField::FLOAT32;
+    field.count = 1;
+    cloud.fields.push_back(field);
+  }
+  const std::size_t images = insect.bare_wing ? 1 : 2;
+  cloud.height = 1;
+  cloud.width = static_cast<std::uint32_t>(images * points.size());
+  cloud.point_step = 24;
+  cloud.row_step = cloud.point_step * cloud.width;
+  cloud.is_dense = true;
+  cloud.data.resize(cloud.row_step);
+
+  float largest = 0.0f;
+  for (const VortexPoint& p : points) largest = std::max(largest, std::abs(p.omega_y));
+  const Eigen::Matrix3d Q = wingAttitude(insect.beta, angles);
+  std::uint8_t* out = cloud.data.data();
+  for (std::size_t image = 0; image < images; ++image) {
+    for (const VortexPoint& p : points) {
+      Eigen::Vector3d r = insect.right.mu + Q * Eigen::Vector3d(p.x, p.y, p.z);  // body axes
+      if (image == 1) r.y() = -r.y();
+      const Eigen::Vector3f f = (frdToFlu() * r).cast<float>();
+      const float shade = largest > 0.0f ? p.omega_y / largest : 0.0f;
+      const float values[6] = {f.x(), f.y(), f.z(), packed(divergingColour(shade)), p.q, p.omega_y};
+      std::memcpy(out, values, sizeof values);
+      out += sizeof values;
+    }
+  }
+  return cloud;
+}
+
+}  // namespace monarch_flight
