@@ -1,0 +1,166 @@
+// Whole runs in one process with the quasi-steady air: convergence, repeatability, and how a run
+// ends.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "monarch_flight/run/federation.h"
+#include "monarch_flight/run/state_hash.h"
+
+namespace monarch_flight {
+namespace {
+
+Case quasiSteady(const std::string& name, CaseOverrides overrides) {
+  overrides["fluid"] = "quasi_steady";
+  return loadCase(name, overrides, CONFIG_DIR);
+}
+
+// Keeps what the tests ask for; throws at `throw_at`.
+class Recorder : public StepSink {
+ public:
+  void onStep(const CommittedStep& step) override {
+    if (step.step == throw_at) throw std::runtime_error("table: disk full");
+    steps.push_back(step);
+    hash.add(step);
+  }
+  void onEnd(const std::string& failure) override {
+    ++ends;
+    end_failure = failure;
+    if (!throw_at_end.empty()) throw std::runtime_error(throw_at_end);
+  }
+
+  std::uint32_t throw_at = ~0u;
+  std::string throw_at_end, end_failure;
+  std::vector<CommittedStep> steps;
+  StateHash hash;
+  int ends = 0;
+};
+
+RunResult fly(const Case& c, std::vector<StepSink*> sinks, const bool& stop = false) {
+  InProcessFederation federation(c);
+  return federation.run(7, sinks, stop);
+}
+
+TEST(Federation, TwoFlapsOfTheClimbConvergeInEveryStepAndRepeat) {
+  const Case c = quasiSteady("climb", {{"flaps", "2"}, {"steps_per_flap", "500"}});
+  Recorder first, second;
+  const RunResult result = fly(c, {&first});
+  ASSERT_TRUE(result.complete) << result.failure;
+  ASSERT_EQ(first.steps.size(), 1001u);
+  EXPECT_EQ(first.ends, 1);
+  EXPECT_EQ(first.end_failure, "");
+  const Matrix6d M = first.steps[0].fluid.added_mass;
+  EXPECT_EQ(M, makeFluid(c)->addedMass());
+  EXPECT_GT(M(2, 2), 0.0);
+  for (std::uint32_t n = 0; n < first.steps.size(); ++n) {
+    const CommittedStep& s = first.steps[n];
+    EXPECT_EQ(s.step, n);
+    EXPECT_DOUBLE_EQ(s.t, c.time.time(n));
+    EXPECT_TRUE(s.converged);
+    EXPECT_EQ(s.prescribed, n <= 10) << n;
+    if (s.prescribed) continue;
+    for (double residual : s.iterations.back().residual) EXPECT_LE(std::abs(residual), 1e-8);
+    EXPECT_LE(s.iterations.size(), 30u);
+  }
+  ASSERT_TRUE(fly(c, {&second}).complete);
+  EXPECT_EQ(first.hash.hex(), second.hash.hex());
+
+  Recorder other;
+  const Case shorter = quasiSteady("climb", {{"flaps", "2"}, {"steps_per_flap", "400"}});
+  ASSERT_TRUE(fly(shorter, {&other}).complete);
+  EXPECT_NE(first.hash.hex(), other.hash.hex());
+}
+
+// The loads of the free flight move the whole insect: momentum of the system against loads and
+// weight.
+TEST(Federation, ImpulseOfAirAndWeightIsTheChangeOfMomentum) {
+  const Case c = quasiSteady("climb", {{"flaps", "1"}, {"steps_per_flap", "2000"}});
+  Recorder r;
+  ASSERT_TRUE(fly(c, {&r}).complete);
+  const Insect& insect = c.insect;
+  const auto momentum = [&](const CommittedStep& s) {
+    const BodyState& b = s.interface.body;
+    Eigen::Vector3d p = insect.m_B * b.v;
+    const auto add = [&](const Appendage& a, const Eigen::Matrix3d& Q,
+                         const Eigen::Vector3d& rate) {
+      const Eigen::Vector3d relative = Q * rate.cross(a.nu);  // F_B
+      p += a.m * (b.v + b.R_IB * (b.Omega_B.cross(a.mu + Q * a.nu) + relative));
+    };
+    const Eigen::Vector3d w = wingRate(s.angles);
+    add(insect.right, wingAttitude(insect.beta, s.angles), w);
+    add(insect.left, leftWingAttitude(insect.beta, s.angles), {-w.x(), w.y(), -w.z()});
+    add(insect.abdomen, abdomenAttitude(s.angles), {0.0, s.angles.theta_A.qd, 0.0});
+    return p;
+  };
+  const std::size_t first = 200, last = 2000;  // the start is prescribed
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
+  for (std::size_t n = first; n < last; ++n)
+    impulse += 0.5 * c.time.dt * (r.steps[n].force_I + r.steps[n + 1].force_I);
+  impulse.z() += insect.totalMass() * c.gravity * c.time.dt * static_cast<double>(last - first);
+  const Eigen::Vector3d change = momentum(r.steps[last]) - momentum(r.steps[first]);
+  EXPECT_LT((impulse - change).norm(), 1e-3 * (impulse.norm() + change.norm()));
+}
+
+TEST(Federation, TetheredFlightLiftsAboutTheWeight) {
+  const Case c = quasiSteady("tethered_fwuav", {{"flaps", "2"}});
+  Recorder r;
+  ASSERT_TRUE(fly(c, {&r}).complete);
+  const auto n = static_cast<std::size_t>(std::lround(c.time.stepsPerFlap()));
+  ASSERT_EQ(r.steps.size(), 2 * n + 1);
+  double up = 0.0;
+  for (std::size_t i = n + 1; i <= 2 * n; ++i) {
+    EXPECT_TRUE(r.steps[i].prescribed);
+    EXPECT_EQ(r.steps[i].iterations.size(), 1u);
+    up -= r.steps[i].force_I.z() / static_cast<double>(n);
+  }
+  EXPECT_GT(up, 1e-3);  // weight 3.0 mN
+  EXPECT_LT(up, 1e-2);
+}
+
+TEST(Federation, SinkThatFailsEndsTheRunWithItsMessage) {
+  const Case c = quasiSteady("climb", {{"flaps", "1"}, {"steps_per_flap", "200"}});
+  Recorder failing, other;
+  failing.throw_at = 5;
+  const RunResult result = fly(c, {&failing, &other});
+  EXPECT_FALSE(result.complete);
+  EXPECT_EQ(result.failure, "table: disk full");
+  EXPECT_EQ(other.steps.size(), 5u);
+  EXPECT_EQ(failing.ends + other.ends, 2);
+  EXPECT_EQ(other.end_failure, "table: disk full");
+}
+
+TEST(Federation, SinkThatFailsAtTheEndIsKnownToThoseBehindIt) {
+  const Case c = quasiSteady("climb", {{"flaps", "1"}, {"steps_per_flap", "200"}});
+  Recorder failing, other;
+  failing.throw_at_end = "bag: disk full";
+  const RunResult result = fly(c, {&failing, &other});
+  EXPECT_FALSE(result.complete);
+  EXPECT_EQ(result.failure, "bag: disk full");
+  EXPECT_EQ(other.end_failure, "bag: disk full");
+}
+
+TEST(Federation, StopEndsTheRunBeforeItsFirstStep) {
+  const Case c = quasiSteady("climb", {{"flaps", "1"}, {"steps_per_flap", "200"}});
+  Recorder r;
+  const bool stop = true;
+  const RunResult result = fly(c, {&r}, stop);
+  EXPECT_FALSE(result.complete);
+  EXPECT_NE(result.failure.find("interrupted"), std::string::npos) << result.failure;
+  EXPECT_EQ(r.steps.size(), 1u);
+  EXPECT_EQ(r.ends, 1);
+}
+
+TEST(Federation, MakesTheFluidThatTheCaseNames) {
+  const Case c = quasiSteady("climb", {});
+  EXPECT_EQ(makeFluid(c)->cells(), 0);
+  const CoupledModel model = makeModel(c);
+  EXPECT_EQ(model.steps, c.time.steps);
+  EXPECT_EQ(model.newmark.dt, c.time.dt);
+  EXPECT_EQ(model.gravity, c.gravity);
+  EXPECT_GT(model.q_threshold, 0.0);
+}
+
+}  // namespace
+}  // namespace monarch_flight
