@@ -51,6 +51,10 @@ void Faults::add(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) add(text);
 }
 
+bool Faults::incomplete(const std::string& path) const {
+  return incomplete_.count(path.substr(0, path.find('/'))) > 0;
+}
+
 void Faults::throwIfAny(const std::string& file) const {
   if (texts_.empty()) return;
   const std::string number =
@@ -102,7 +106,8 @@ YAML::Node Section::take(const std::string& key) {
 std::optional<YAML::Node> Section::required(const std::string& key, const std::string& what) {
   const YAML::Node node = take(key);
   if (node.IsDefined() && !node.IsNull()) return node;
-  if (!absent_) fault(key, " is missing: must be " + what + "; add it");
+  if (!absent_ && !faults_.incomplete(path_))
+    fault(key, " is missing: must be " + what + "; add it");
   return std::nullopt;
 }
 
@@ -204,13 +209,10 @@ std::vector<double> Section::numbers(const std::string& key, const std::string& 
 }
 
 Eigen::Vector3d Section::vector3(const std::string& key, const std::string& unit) {
-  const bool given = has(key);
   const std::vector<double> values = numbers(key, unit);
   if (values.size() == 3) return {values[0], values[1], values[2]};
-  if (given && !values.empty()) {
+  if (has(key) && take(key).IsSequence()) {
     fault(key, " has " + std::to_string(values.size()) + " values: must be 3; give [x, y, z]");
-  } else if (given) {
-    fault(key, ": must be three numbers; give [x, y, z]");
   }
   return Eigen::Vector3d::Zero();
 }
@@ -254,7 +256,7 @@ Section Section::section(const std::string& key) {
   const bool good = node.IsDefined() && node.IsMap();
   if (!good && node.IsDefined()) {
     fault(key, " = " + shown(node) + ": must be a section of keys; indent its keys below it");
-  } else if (!good && !absent_) {
+  } else if (!good && !absent_ && !faults_.incomplete(path_)) {
     fault(key, " is missing: must be a section of keys; add it");
   }
   YAML::Node resolved(YAML::NodeType::Map);

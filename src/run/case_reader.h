@@ -15,11 +15,15 @@ class Faults {
   void add(const std::string& text);
   void add(const std::vector<std::string>& texts);
   std::size_t count() const { return texts_.size(); }
+  /// What a section builds on could not be read: keys missing in it are no further faults.
+  void markIncomplete(const std::string& section) { incomplete_.insert(section); }
+  bool incomplete(const std::string& path) const;
   /// InputError with every fault, "<file>: n faults" in front; nothing without a fault.
   void throwIfAny(const std::string& file) const;
 
  private:
   std::vector<std::string> texts_;
+  std::set<std::string> incomplete_;
 };
 
 /// What a number must satisfy, and what to do when it does not.

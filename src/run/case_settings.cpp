@@ -67,7 +67,10 @@ void readTime(Section section, double frequency, Case& c) {
   const bool by_flap = section.has("steps_per_flap") || section.has("flaps");
   if (by_step && by_flap) {
     for (const char* key : {"dt", "duration", "steps_per_flap", "flaps"}) section.take(key);
-    section.fault("dt", ": give either steps_per_flap and flaps, or dt and duration, not both");
+    section.fault(
+        "dt",
+        ": give either steps_per_flap and flaps, or dt and duration, not both (flaps:= and "
+        "steps_per_flap:= on the command line need a case given by flaps)");
   } else if (by_step) {
     c.time.dt = section.number("dt", {Bound::kPositive, "s", "give the time step"});
     const double duration =

@@ -20,12 +20,15 @@ YAML::Node get(const YAML::Node& map, const std::string& key) {
                                         : YAML::Node(YAML::NodeType::Undefined);
 }
 
-/// Names of the YAML files in a folder, for messages.
-std::string namesIn(const fs::path& folder) {
+/// What stands before `ending` in the file names of a folder, for messages.
+std::string namesIn(const fs::path& folder, const std::string& ending) {
   std::vector<std::string> names;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+    const std::string name = entry.path().filename().string();
+    if (name.size() <= ending.size()) continue;
+    const std::size_t stem = name.size() - ending.size();
+    if (name.substr(stem) == ending) names.push_back(name.substr(0, stem));
   }
   std::sort(names.begin(), names.end());
   std::string text;
@@ -74,7 +77,9 @@ void layBelow(YAML::Node root, const std::string& section, const std::string& ke
   const fs::path file = folder / (name + suffix);
   if (name.empty() || !fs::exists(file)) {
     faults.add(section + "/" + key + " = '" + name + "': " + file.string() +
-               " does not exist; there are " + namesIn(folder));
+               " does not exist; there are " + namesIn(folder, suffix));
+    root[section].remove(key);
+    faults.markIncomplete(section);
     return;
   }
   try {
@@ -83,6 +88,8 @@ void layBelow(YAML::Node root, const std::string& section, const std::string& ke
     root[section] = merged;
   } catch (const InputError& e) {
     faults.add(e.what());
+    root[section].remove(key);
+    faults.markIncomplete(section);
   }
 }
 
@@ -156,7 +163,7 @@ std::string findCase(const std::string& name_or_path, const std::string& config_
   const fs::path path = is_path ? given : folder / (name_or_path + ".yaml");
   if (!name_or_path.empty() && fs::is_regular_file(path)) return path.string();
   throw InputError("case = '" + name_or_path + "': " + path.string() +
-                   " does not exist; give a path or one of " + namesIn(folder));
+                   " does not exist; give a path or one of " + namesIn(folder, ".yaml"));
 }
 
 YAML::Node assembleCase(const std::string& path, const CaseOverrides& overrides,
