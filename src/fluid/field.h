@@ -4,6 +4,7 @@
 #include <new>
 #include <vector>
 
+#include "fluid/slab.h"
 #include "monarch_flight/fluid/grid.h"
 
 namespace monarch_flight {
@@ -26,16 +27,26 @@ struct Aligned64 {
 };
 using Array = std::vector<double, Aligned64<double>>;
 
-/// Common storage layout of all staggered fields: x fastest, one layer of ghosts, rows padded so
-/// that i = 0 is aligned. The face (i, j, k) of a component is the lower face of the cell (i, j,
-/// k).
+/// Common storage layout of all staggered fields: x fastest, one layer of ghosts, rows padded so that
+/// i = 0 is aligned. The face (i, j, k) of a component is the lower face of the cell (i, j, k).
+/// Indices are those of the whole grid; a process stores the planes [k0 - 1, k1 + 1] of its slab.
 struct Layout {
-  int nx, ny, nz;
+  int nx, ny, nz;         ///< cells of the whole grid
+  int k0, k1;             ///< planes of cells owned: [k0, k1)
   std::ptrdiff_t sy, sz;  ///< strides of j and k
-  explicit Layout(const Grid& g)
-      : nx(g.x.n()), ny(g.y.n()), nz(g.z.n()), sy((nx + 9 + 7) / 8 * 8), sz(sy * (ny + 3)) {}
-  std::ptrdiff_t at(int i, int j, int k) const { return (k + 1) * sz + (j + 1) * sy + i + 8; }
-  std::size_t size() const { return static_cast<std::size_t>(sz) * (nz + 3); }
+  Layout(const Grid& g, const Slab& slab)
+      : nx(g.x.n()),
+        ny(g.y.n()),
+        nz(g.z.n()),
+        k0(slab.k0()),
+        k1(slab.k1()),
+        sy((nx + 9 + 7) / 8 * 8),
+        sz(sy * (ny + 3)) {}
+  std::ptrdiff_t at(int i, int j, int k) const {
+    return (k - k0 + 1) * sz + (j + 1) * sy + i + 8;
+  }
+  std::ptrdiff_t plane(int k) const { return (k - k0 + 1) * sz; }  ///< its first element
+  std::size_t size() const { return static_cast<std::size_t>(sz) * (k1 - k0 + 3); }
   std::ptrdiff_t stride(int direction) const {
     return direction == 0 ? 1 : direction == 1 ? sy : sz;
   }
@@ -49,6 +60,14 @@ struct Velocity {
     for (auto& a : c) a.assign(l.size(), 0.0);
   }
 };
+
+/// Fills the neighbouring planes of a field from the processes above and below.
+inline void fillHalo(const Layout& l, const Slab& slab, Array& a) {
+  slab.fillHalo([&](int k) { return a.data() + l.plane(k); }, static_cast<int>(l.sz));
+}
+inline void fillHalo(const Layout& l, const Slab& slab, Velocity& v) {
+  for (auto& a : v.c) fillHalo(l, slab, a);
+}
 
 /// A function of the wing's plane that is affine in x and y: the velocity of the wall, for every
 /// level.

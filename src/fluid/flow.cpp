@@ -13,20 +13,36 @@
 
 namespace monarch_flight {
 
-NavierStokes::NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit)
+namespace {
+
+void sumLoads(const Slab& slab, Loads& loads) {
+  double all[12];
+  Eigen::Map<Eigen::Matrix<double, 3, 4>> m(all);
+  m << loads.force_pressure, loads.force_friction, loads.moment_pressure, loads.moment_friction;
+  slab.sum(all, 12);
+  loads = {m.col(0), m.col(1), m.col(2), m.col(3)};
+}
+
+}  // namespace
+
+NavierStokes::NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit,
+                           MPI_Comm comm)
     : grid_(std::move(grid)),
-      layout_(grid_),
+      slab_(comm == MPI_COMM_NULL ? Slab(grid_.z.n()) : Slab(comm, grid_.z.n())),
+      layout_(grid_, slab_),
       air_(air),
       reference_length_(reference_length),
       courant_limit_(courant_limit),
-      pressure_(grid_),
-      momentum_(grid_, layout_),
+      pressure_(grid_, slab_),
+      momentum_(grid_, layout_, slab_),
       vn_(layout_),
       vm_(layout_),
       p_(layout_.size(), 0.0),
       convecting_(layout_),
-      v_star_(layout_),
-      phi_(static_cast<std::size_t>(grid_.cells()), 0.0) {
+      v_star_(layout_) {
+  const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(layout_.nx) * layout_.ny;
+  phi_start_ = (plane + 7) / 8 * 8;
+  phi_.assign(phi_start_ + plane * slab_.planes(), 0.0);
   added_mass_ = computeAddedMass();
 }
 
@@ -37,10 +53,11 @@ Matrix6d NavierStokes::computeAddedMass() {
     (column == 2 ? unit.V.z() : column == 3 ? unit.omega.x() : unit.omega.y()) = 1;
     const WallVelocity wall = wallVelocity(unit);
     fillWing(grid_, layout_, wall, v_star_);
-    netOutflow(grid_, layout_, v_star_, air_.rho, phi_.data());
-    pressure_.solve(phi_.data());
+    netOutflow(grid_, layout_, v_star_, air_.rho, phi());
+    pressure_.solve(phi());
     Loads loads;
-    pressureLoads(grid_, WingPressure(grid_, layout_, nullptr, phi_.data()), air_.rho, wall, loads);
+    pressureLoads(grid_, layout_, WingPressure(grid_, layout_, nullptr, phi()), air_.rho, wall, loads);
+    sumLoads(slab_, loads);
     m.col(column) << -loads.force_pressure, -loads.moment_pressure;
   }
   fillWing(grid_, layout_, WallVelocity{}, v_star_);
@@ -68,9 +85,17 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
 /// The wing is set in motion at once: the air takes up the potential flow of its normal velocity.
 void NavierStokes::potentialStart() {
   fillWing(grid_, layout_, level_n_.wall, vn_);
-  netOutflow(grid_, layout_, vn_, 1.0, phi_.data());
-  pressure_.solve(phi_.data());
-  subtractGradient(grid_, layout_, phi_.data(), 1.0, vn_);
+  netOutflow(grid_, layout_, vn_, 1.0, phi());
+  pressure_.solve(phi());
+  fillPhiHalo();
+  subtractGradient(grid_, layout_, phi(), 1.0, vn_);
+  fillHalo(layout_, slab_, vn_);
+}
+
+void NavierStokes::fillPhiHalo() {
+  const int plane = layout_.nx * layout_.ny;
+  if (!slab_.atTop()) slab_.sendUp(phi() + static_cast<std::ptrdiff_t>(slab_.planes() - 1) * plane, plane);
+  if (!slab_.atBottom()) slab_.receiveFromBelow(phi() - plane, plane);
 }
 
 void NavierStokes::setUniformStream(const Eigen::Vector3d& u_I) {
@@ -90,12 +115,13 @@ void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& f
   level.wall = rotated(level.wall, Q);
   fillOuter(grid_, layout_, frame.transpose() * stream_I_, v);
   fillWing(grid_, layout_, level.wall, v);
+  fillHalo(layout_, slab_, v);
 }
 
 void NavierStokes::convectingField(const GridVelocity& g) {
   const double extrapolation = step_.second_order ? 1.0 : 0.0;
   for (int c = 0; c < 3; ++c) {
-    for (int k = 0; k < layout_.nz + (c == 2); ++k) {
+    for (int k = std::max(0, layout_.k0 - 1); k <= std::min(layout_.k1, layout_.nz - (c != 2)); ++k) {
       const double z = c == 2 ? grid_.z.face[k] : grid_.z.centre[k];
       for (int j = 0; j < layout_.ny + (c == 1); ++j) {
         const double y = c == 1 ? grid_.y.face[j] : grid_.y.centre[j];
@@ -116,7 +142,7 @@ void NavierStokes::convectingField(const GridVelocity& g) {
 /// Largest in-plane Courant number over the wing and half a reference length above and below it.
 double NavierStokes::courant() const {
   double worst = 0;
-  for (int k = 0; k < layout_.nz; ++k) {
+  for (int k = layout_.k0; k < layout_.k1; ++k) {
     if (std::abs(grid_.z.centre[k]) > 0.5 * reference_length_) continue;
     for (int j = 0; j < layout_.ny; ++j) {
       for (int i = 0; i < layout_.nx; ++i) {
@@ -130,7 +156,7 @@ double NavierStokes::courant() const {
       }
     }
   }
-  return worst * dt_;
+  return slab_.max(worst) * dt_;
 }
 
 /// What a step does before any guess of the interface: (1) predict the grid's motion, (2) turn both
@@ -151,6 +177,7 @@ void NavierStokes::prepareStep() {
   convectingField({2 * n.V - m.V, 2 * n.omega - m.omega});
   report_.courant = courant();
   if (report_.courant > courant_limit_) {
+    step_ = {};
     std::ostringstream s;
     s << "Courant number " << report_.courant << " exceeds grid/courant_limit = " << courant_limit_
       << ": use more steps a flap, a coarser grid, or raise the limit";
@@ -170,18 +197,21 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   fillOuter(grid_, layout_, predicted_frame_.transpose() * stream_I_, v_star_);
   fillWing(grid_, layout_, next_.wall, v_star_);
 
-  netOutflow(grid_, layout_, v_star_, air_.rho / step_.a, phi_.data());
-  pressure_.solve(phi_.data());
+  fillHalo(layout_, slab_, v_star_.c[2]);
+
+  netOutflow(grid_, layout_, v_star_, air_.rho / step_.a, phi());
+  pressure_.solve(phi());
 
   acceleration_ =
       step_.second_order
           ? combined(1.5 / dt_, next_.wall, -2 / dt_, level_n_.wall, 0.5 / dt_, level_m_.wall)
           : combined(1 / dt_, next_.wall, -1 / dt_, level_n_.wall, 0, next_.wall);
   Loads loads;
-  pressureLoads(grid_, WingPressure(grid_, layout_, p_.data(), phi_.data()), air_.rho,
+  pressureLoads(grid_, layout_, WingPressure(grid_, layout_, p_.data(), phi()), air_.rho,
                 acceleration_, loads);
-  frictionLoads(grid_, layout_, momentum_, v_star_, phi_.data(), step_.a / air_.rho, next_.wall,
+  frictionLoads(grid_, layout_, momentum_, v_star_, phi(), step_.a / air_.rho, next_.wall,
                 air_.mu, loads);
+  sumLoads(slab_, loads);
   if (!loads.finite()) throw NumericalError("Navier-Stokes: the loads are not finite");
   evaluated_ = true;
   return loads;
@@ -189,15 +219,18 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
 
 void NavierStokes::commit() {
   if (!evaluated_) throw std::logic_error("NavierStokes::commit without evaluate");
-  subtractGradient(grid_, layout_, phi_.data(), step_.a / air_.rho, v_star_);
-  for (int k = 0; k < layout_.nz; ++k) {
+  fillPhiHalo();
+  subtractGradient(grid_, layout_, phi(), step_.a / air_.rho, v_star_);
+  fillHalo(layout_, slab_, v_star_);
+  for (int k = layout_.k0; k < layout_.k1; ++k) {
     for (int j = 0; j < layout_.ny; ++j) {
       double* p = p_.data() + layout_.at(0, j, k);
       const double* f =
-          phi_.data() + (static_cast<std::ptrdiff_t>(k) * layout_.ny + j) * layout_.nx;
+          phi() + (static_cast<std::ptrdiff_t>(k - layout_.k0) * layout_.ny + j) * layout_.nx;
       for (int i = 0; i < layout_.nx; ++i) p[i] += f[i];
     }
   }
+  fillHalo(layout_, slab_, p_);
   std::swap(vm_, vn_);      // n becomes n-1
   std::swap(vn_, v_star_);  // v* has become n
   level_m_ = level_n_;

@@ -21,7 +21,9 @@ struct Level {
 /// (relative to the wind), resolved in wing axes. Method: docs/fluid.md.
 class NavierStokes : public FluidModel {
  public:
-  NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit);
+  /// On the processes of `comm` (default: this one alone); all of them call every function alike.
+  NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit,
+               MPI_Comm comm = MPI_COMM_NULL);
 
   void start(const WingMotion& motion, double dt) override;
   Loads evaluate(const WingMotion& next) override;
@@ -36,6 +38,7 @@ class NavierStokes : public FluidModel {
 
   const Grid& grid() const { return grid_; }
   const Layout& layout() const { return layout_; }
+  const Slab& slab() const { return slab_; }
   const Velocity& velocity() const { return vn_; }  ///< committed level n
   /// Replaces the field at rest by a uniform stream `u_I` (inertial axes), at the outer boundary
   /// too.
@@ -49,7 +52,11 @@ class NavierStokes : public FluidModel {
   Matrix6d computeAddedMass();
   void potentialStart();
 
+  double* phi() { return phi_.data() + phi_start_; }  ///< of this process's first cell
+  void fillPhiHalo();
+
   Grid grid_;
+  Slab slab_;
   Layout layout_;
   Air air_;
   double reference_length_, courant_limit_;
@@ -69,7 +76,8 @@ class NavierStokes : public FluidModel {
   // of the step being computed
   MomentumStep step_{};
   Velocity convecting_, v_star_;
-  Array phi_;
+  Array phi_;                 ///< one plane of the process below, then this process's cells
+  std::ptrdiff_t phi_start_;
   Eigen::Matrix3d predicted_frame_;
   Level next_;
   WallVelocity acceleration_;

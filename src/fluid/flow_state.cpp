@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 
 #include "fluid/flow.h"
 #include "fluid/wing_loads.h"
@@ -35,7 +36,8 @@ class Reader {
     bytes(&value, sizeof(T));
   }
   void operator()(Array& a) { bytes(a.data(), a.size() * sizeof(double)); }
-  bool atEnd() const { return at_ == in_.size(); }
+  std::size_t left() const { return in_.size() - at_; }
+  void skip(std::size_t n) { at_ += n; }
 
  private:
   void bytes(void* p, std::size_t n) {
@@ -55,12 +57,23 @@ void exchangeLevel(Stream& s, L& level) {
   s(level.wall);
 }
 
+/// The items of all processes on process 0.
+template <class T>
+std::vector<T> gathered(const Slab& slab, const std::vector<T>& mine) {
+  const char* begin = reinterpret_cast<const char*>(mine.data());
+  const std::vector<char> all = slab.gather(std::vector<char>(begin, begin + mine.size() * sizeof(T)));
+  std::vector<T> items(all.size() / sizeof(T));
+  if (!all.empty()) std::memcpy(static_cast<void*>(items.data()), all.data(), all.size());
+  return items;
+}
+
 }  // namespace
 
+// The state is a head (number of processes, bytes of each) and the parts of the processes, bottom first.
 std::vector<char> NavierStokes::save() const {
-  std::vector<char> out;
-  Writer w(out);
-  w(layout_.nx), w(layout_.ny), w(layout_.nz);
+  std::vector<char> mine;
+  Writer w(mine);
+  w(layout_.nx), w(layout_.ny), w(layout_.nz), w(layout_.k0), w(layout_.k1);
   w(dt_), w(steps_), w(prepared_);
   exchangeLevel(w, level_n_);
   exchangeLevel(w, level_m_);
@@ -68,14 +81,38 @@ std::vector<char> NavierStokes::save() const {
   for (int i = 0; i < 3; ++i) w(stream_I_[i]);
   for (int c = 0; c < 3; ++c) w(vn_.c[c]), w(vm_.c[c]);
   w(p_);
-  return out;
+  const long size = static_cast<long>(mine.size());
+  std::vector<char> sizes, head, all = slab_.gather(mine);
+  Writer{sizes}(size);
+  sizes = slab_.gather(sizes);
+  if (slab_.rank() != 0) return {};
+  Writer{head}(slab_.ranks());
+  head.insert(head.end(), sizes.begin(), sizes.end());
+  head.insert(head.end(), all.begin(), all.end());
+  return head;
 }
 
 void NavierStokes::restore(const std::vector<char>& bytes) {
   Reader r(bytes);
-  int n[3];
-  r(n[0]), r(n[1]), r(n[2]);
-  if (n[0] != layout_.nx || n[1] != layout_.ny || n[2] != layout_.nz) {
+  int ranks = 0;
+  r(ranks);
+  if (ranks != slab_.ranks()) {
+    throw std::invalid_argument("fluid state: made by " + std::to_string(ranks) + " processes, not by " +
+                                std::to_string(slab_.ranks()));
+  }
+  std::size_t mine = 0, total = 0;
+  for (int q = 0; q < ranks; ++q) {
+    long size = 0;
+    r(size);
+    if (q < slab_.rank()) mine += size;
+    total += size;
+  }
+  if (r.left() != total) throw std::invalid_argument("fluid state: cut short or too long");
+  r.skip(mine);
+  int n[5];
+  for (int& q : n) r(q);
+  if (n[0] != layout_.nx || n[1] != layout_.ny || n[2] != layout_.nz || n[3] != layout_.k0 ||
+      n[4] != layout_.k1) {
     throw std::invalid_argument("fluid state: made on another grid");
   }
   r(dt_), r(steps_), r(prepared_);
@@ -85,30 +122,29 @@ void NavierStokes::restore(const std::vector<char>& bytes) {
   for (int i = 0; i < 3; ++i) r(stream_I_[i]);
   for (int c = 0; c < 3; ++c) r(vn_.c[c]), r(vm_.c[c]);
   r(p_);
-  if (!r.atEnd()) throw std::invalid_argument("fluid state: too long for this grid");
   evaluated_ = false;
   step_ = {};
 }
 
 SurfacePressure NavierStokes::surfacePressure() const {
-  SurfacePressure s;
+  std::vector<SurfacePressure::Facet> facets;
   const WingPressure p(grid_, layout_, p_.data(), nullptr);
-  for (int j = 0; j < layout_.ny; ++j) {
+  for (int j = 0; slab_.owns(grid_.k_wing) && j < layout_.ny; ++j) {
     for (int i = 0; i < layout_.nx; ++i) {
       if (!grid_.isWing(i, j)) continue;
       const double x = grid_.x.centre[i], y = grid_.y.centre[j], a_n = acceleration_.at(2, x, y);
-      s.facets.push_back({float(x), float(y), float(grid_.x.width[i]), float(grid_.y.width[j]),
+      facets.push_back({float(x), float(y), float(grid_.x.width[i]), float(grid_.y.width[j]),
                           float(p.below(i, j, air_.rho, a_n)),
                           float(p.above(i, j, air_.rho, a_n))});
     }
   }
-  return s;
+  return {gathered(slab_, facets)};
 }
 
 std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) const {
   std::vector<VortexPoint> points;
   const Axis* axes[3] = {&grid_.x, &grid_.y, &grid_.z};
-  for (int k = 1; k < layout_.nz - 1; ++k) {
+  for (int k = std::max(1, layout_.k0); k < std::min(layout_.k1, layout_.nz - 1); ++k) {
     for (int j = 1; j < layout_.ny - 1; ++j) {
       for (int i = 1; i < layout_.nx - 1; ++i) {
         const int at[3] = {i, j, k};
@@ -133,6 +169,7 @@ std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) c
       }
     }
   }
+  points = gathered(slab_, points);
   if (static_cast<int>(points.size()) > limit) {
     std::nth_element(points.begin(), points.begin() + limit, points.end(),
                      [](const VortexPoint& a, const VortexPoint& b) { return a.q > b.q; });

@@ -32,19 +32,19 @@ struct Stencil {
 
 }  // namespace
 
-Momentum::Momentum(const Grid& grid, const Layout& layout)
-    : grid_(grid), layout_(layout), delta_(layout) {
+Momentum::Momentum(const Grid& grid, const Layout& layout, const Slab& slab)
+    : grid_(grid), layout_(layout), slab_(slab), delta_(layout) {
   const Axis* axes[3] = {&grid.x, &grid.y, &grid.z};
   for (int c = 0; c < 3; ++c) {
     for (int d = 0; d < 3; ++d) {
       const Axis& axis = *axes[d];
-      const int n = axis.n();
+      const int n = axis.n(), start = c == d ? 1 : 0;
       Direction& m = metric_[c][d];
       m.inverse_width.assign(n + 2, 0.0);
       m.inverse_distance.assign(n + 2, 0.0);
-      for (int i = first(c, d); i < n; ++i)
+      for (int i = start; i < n; ++i)
         m.inverse_width[i] = 1 / (c == d ? axis.gap[i] : axis.width[i]);
-      for (int i = first(c, d); i <= n; ++i)
+      for (int i = start; i <= n; ++i)
         m.inverse_distance[i] = 1 / (c == d ? axis.width[i - 1] : axis.gap[i]);
     }
     blocked_[c].assign(layout.sz, 0.0);
@@ -63,8 +63,9 @@ Momentum::Momentum(const Grid& grid, const Layout& layout)
   wing_plane_.assign(layout.sz, 0.0);
   const std::size_t line = std::max({layout.nx, layout.ny, layout.nz}) + 8;
   lower_.assign(std::max<std::size_t>(layout.sy, kLines * line), 0.0);
-  upper_ = zlower_ = zupper_ = lower_;
+  upper_ = wall_diagonal_ = wall_side_ = zero_ = lower_;
   gamma_.assign(line * std::max<std::size_t>(layout.sy, kLines), 0.0);
+  if (slab.ranks() > 1) gamma_field_.assign(layout.size(), 0.0);
 }
 
 double Momentum::position(int component, int direction, int index) const {
@@ -109,7 +110,7 @@ void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Veloc
         rightSide(vn, vm, c, p, wall_n, component, j, k);
       }
       if (component == 2 && k == grid_.k_wing) {
-        const double* plane = delta_.c[2].data() + layout_.at(-8, -1, k);
+        const double* plane = delta_.c[2].data() + layout_.plane(k);
         std::copy(plane, plane + layout_.sz, wing_plane_.begin());
         continue;  // swept in finish(): it holds the wing's faces
       }
@@ -121,13 +122,19 @@ void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Veloc
 
 void Momentum::finish(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change,
                       Velocity& v_star) {
-  std::copy(wing_plane_.begin(), wing_plane_.end(),
-            delta_.c[2].data() + layout_.at(-8, -1, grid_.k_wing));
-  sweepX(c, 2, grid_.k_wing, &wall_change);
-  sweepY(c, 2, grid_.k_wing, &wall_change);
+  if (slab_.owns(grid_.k_wing)) {
+    std::copy(wing_plane_.begin(), wing_plane_.end(), delta_.c[2].data() + layout_.plane(grid_.k_wing));
+    sweepX(c, 2, grid_.k_wing, &wall_change);
+    sweepY(c, 2, grid_.k_wing, &wall_change);
+  }
   for (int component = 0; component < 3; ++component) {
-    for (int j = first(component, 1); j <= last(component, 1); ++j) {
-      sweepZ(vn, c, wall_change, component, j, v_star);
+    sweepZ(c, wall_change, component, v_star);
+    for (int k = first(component, 2); k <= last(component, 2); ++k) {
+      for (int j = first(component, 1); j <= last(component, 1); ++j) {
+        const double* __restrict v = vn.c[component].data() + layout_.at(0, j, k);
+        double* __restrict d = v_star.c[component].data() + layout_.at(0, j, k);
+        for (int i = first(component, 0); i <= last(component, 0); ++i) d[i] += v[i];
+      }
     }
   }
 }
@@ -275,78 +282,168 @@ void Momentum::sweepY(const Velocity& c, int component, int k, const WallVelocit
   }
 }
 
-void Momentum::sweepZ(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change,
-                      int component, int j, Velocity& v_star) {
-  const int i0 = first(component, 0), i1 = last(component, 0);
-  const int k0 = first(component, 2), k1 = last(component, 2), kw = grid_.k_wing;
-  double* __restrict lo = zlower_.data();
-  double* __restrict up = zupper_.data();
-  double* __restrict wall_d = lower_.data();  // wall's addition to the diagonal
-  double* __restrict wall_r = upper_.data();  // and to the right side
-  const double y = position(component, 1, j);
-  for (int k = k0; k <= k1; ++k) {
-    const std::ptrdiff_t row = layout_.at(0, j, k);
-    const double* __restrict r = delta_.c[component].data() + row;
-    double* __restrict d = v_star.c[component].data() + row;
-    const double* __restrict dp = d - layout_.sz;
-    double* __restrict g = gamma_.data() + k * layout_.sy;
-    const double* __restrict gp = gamma_.data() + (k > k0 ? k - 1 : k) * layout_.sy;
-    coefficients(c, component, 2, j, k, {lo, up});
-    const bool at_wall = component == 2 ? k == kw : (k == kw || k == kw - 1);
-    if (at_wall && component != 2) {
-      const Direction& m = metric_[component][2];
-      const double wall = 2 * step_.a * step_.nu / (grid_.z.width[k] * grid_.z.width[k]);
-      const double link = step_.a * step_.nu * m.inverse_distance[kw] * m.inverse_width[k];
-      double* __restrict off = k == kw ? lo : up;
-      for (int i = i0; i <= i1; ++i) {
-        const double b = blocked(component, i, j);
-        off[i] += b * link;
-        wall_d[i] = b * wall;
-        wall_r[i] = b * wall * wall_change.at(component, position(component, 0, i), y);
-      }
-      for (int i = i0; i <= i1; ++i) {
-        const double coupling = k == k0 ? 0.0 : lo[i];
-        const double inv = 1 / (1 - lo[i] - up[i] + wall_d[i] - coupling * gp[i]);
-        g[i] = up[i] * inv;
-        d[i] = (r[i] + wall_r[i] - coupling * dp[i]) * inv;
-      }
-      continue;
-    }
-    if (k == k0) {
-      for (int i = i0; i <= i1; ++i) {
-        const double inv = 1 / (1 - lo[i] - up[i]);
-        g[i] = up[i] * inv;
-        d[i] = r[i] * inv;
-      }
-      continue;
+struct Momentum::Lines {
+  int component;
+  const double* side;          // right sides (layout of the fields)
+  double* x;                   // solution in place of the reduced right sides (layout of the fields)
+  double* gamma;               // off-diagonal left after elimination, of the point (0, j, 0)
+  std::ptrdiff_t gamma_plane;  // stride of k in gamma
+  std::ptrdiff_t gamma_row;    // stride of j in gamma
+  double* gammaAt(int j, int k) const { return gamma + j * gamma_row + k * gamma_plane; }
+};
+
+void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
+                            int j, int k, int towards) {
+  const int component = lines.component, i0 = first(component, 0), i1 = last(component, 0);
+  const int kw = grid_.k_wing;
+  double* lower = lower_.data();
+  double* upper = upper_.data();
+  coefficients(c, component, 2, j, k, {lower, upper});
+  const bool is_end = towards > 0 ? k == (component == 2) : k == layout_.nz - 1;
+  const std::ptrdiff_t row = layout_.at(0, j, k);
+  const double* __restrict near = towards > 0 ? lower : upper;
+  const double* __restrict far = towards > 0 ? upper : lower;
+  const double* __restrict r = lines.side + row;
+  double* __restrict d = lines.x + row;
+  double* __restrict g = lines.gammaAt(j, k);
+  const double* __restrict dp = is_end ? zero_.data() : lines.x + row - towards * layout_.sz;
+  const double* __restrict gp = is_end ? zero_.data() : lines.gammaAt(j, k - towards);
+  if (component != 2 && (k == kw || k == kw - 1)) {  // sees the wall at half a cell where it is wing
+    const Direction& m = metric_[component][2];
+    const double wall = 2 * step_.a * step_.nu / (grid_.z.width[k] * grid_.z.width[k]);
+    const double link = step_.a * step_.nu * m.inverse_distance[kw] * m.inverse_width[k];
+    const double y = position(component, 1, j);
+    double* __restrict cut = k == kw ? lower : upper;
+    for (int i = i0; i <= i1; ++i) {
+      const double b = blocked(component, i, j);
+      cut[i] += b * link;
+      wall_diagonal_[i] = b * wall;
+      wall_side_[i] = b * wall * wall_change.at(component, position(component, 0, i), y);
     }
     for (int i = i0; i <= i1; ++i) {
-      const double inv = 1 / (1 - lo[i] - up[i] - lo[i] * gp[i]);
-      g[i] = up[i] * inv;
-      d[i] = (r[i] - lo[i] * dp[i]) * inv;
+      const double inv = 1 / (1 - near[i] - far[i] + wall_diagonal_[i] - near[i] * gp[i]);
+      g[i] = far[i] * inv;
+      d[i] = (r[i] + wall_side_[i] - near[i] * dp[i]) * inv;
     }
-    if (at_wall) {
-      for (int i = i0; i <= i1; ++i) {
-        if (!grid_.isWing(i, j)) continue;
-        g[i] = 0;
-        d[i] = wall_change.at(2, grid_.x.centre[i], y);
-      }
+    return;
+  }
+  for (int i = i0; i <= i1; ++i) {
+    const double inv = 1 / (1 - near[i] - far[i] - near[i] * gp[i]);
+    g[i] = far[i] * inv;
+    d[i] = (r[i] - near[i] * dp[i]) * inv;
+  }
+  if (component == 2 && k == kw) {
+    for (int i = i0; i <= i1; ++i) {
+      if (!grid_.isWing(i, j)) continue;
+      g[i] = 0;
+      d[i] = wall_change.at(2, grid_.x.centre[i], grid_.y.centre[j]);
     }
   }
-  for (int k = k1; k >= k0; --k) {
-    const std::ptrdiff_t row = layout_.at(0, j, k);
-    double* __restrict d = v_star.c[component].data() + row;
-    const double* __restrict dn = d + layout_.sz;
-    const double* __restrict g = gamma_.data() + k * layout_.sy;
-    if (k < k1) {
-      for (int i = i0; i <= i1; ++i) d[i] -= g[i] * dn[i];
+}
+
+/// Half 0: the planes below the wing's, upwards; half 1: those above, downwards.
+void Momentum::eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j,
+                         int half) {
+  const int k0 = first(lines.component, 2), k1 = last(lines.component, 2), kw = grid_.k_wing;
+  if (half == 0) {
+    for (int k = k0; k <= std::min(k1, kw - 1); ++k) eliminateRow(c, wall_change, lines, j, k, +1);
+  } else {
+    for (int k = k1; k >= std::max(k0, kw); --k) eliminateRow(c, wall_change, lines, j, k, -1);
+  }
+}
+
+/// The two points that meet at the wing's plane, of which this process owns one or both.
+void Momentum::join(const Lines& lines, int j) const {
+  const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
+  const double* __restrict ga = lines.gammaAt(j, kw - 1);
+  const double* __restrict gb = lines.gammaAt(j, kw);
+  double* __restrict a = lines.x + layout_.at(0, j, kw - 1);
+  double* __restrict b = lines.x + layout_.at(0, j, kw);
+  for (int i = i0; i <= i1; ++i) {
+    const double inv = 1 / (1 - ga[i] * gb[i]), below = a[i], above = b[i];
+    a[i] = (below - ga[i] * above) * inv;
+    b[i] = (above - gb[i] * below) * inv;
+  }
+}
+
+void Momentum::substitute(const Lines& lines, int j, int half) const {
+  const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
+  const int k0 = first(lines.component, 2), k1 = last(lines.component, 2);
+  const int begin = half == 0 ? std::min(k1, kw - 2) : std::max(k0, kw + 1);
+  const int count = half == 0 ? begin - k0 + 1 : k1 - begin + 1, towards = half == 0 ? -1 : +1;
+  for (int n = 0; n < count; ++n) {
+    const int k = begin + n * towards;
+    double* __restrict x = lines.x + layout_.at(0, j, k);
+    const double* __restrict solved = x - towards * layout_.sz;
+    const double* __restrict g = lines.gammaAt(j, k);
+    for (int i = i0; i <= i1; ++i) x[i] -= g[i] * solved[i];
+  }
+}
+
+void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int component,
+                      Velocity& v_star) {
+  const int j0 = first(component, 1), j1 = last(component, 1), kw = grid_.k_wing;
+  Lines lines{component, delta_.c[component].data(), v_star.c[component].data(), gamma_.data(),
+              layout_.sy, 0};
+  if (slab_.ranks() == 1) {
+    for (int j = j0; j <= j1; ++j) {
+      eliminate(c, wall_change, lines, j, 0);
+      eliminate(c, wall_change, lines, j, 1);
+      join(lines, j);
+      substitute(lines, j, 0);
+      substitute(lines, j, 1);
+    }
+    return;
+  }
+  // The same with the lines cut by slabs: planes pass from process to process towards the wing and back.
+  lines.gamma = gamma_field_.data() + layout_.at(0, 0, 0);
+  lines.gamma_plane = layout_.sz;
+  lines.gamma_row = layout_.sy;
+  const int k0 = layout_.k0, k1 = layout_.k1, n = static_cast<int>(layout_.sz);
+  const bool has_below = k0 < kw, has_above = k1 > kw;
+  auto x = [&](int k) { return lines.x + layout_.plane(k); };
+  auto gamma = [&](int k) { return gamma_field_.data() + layout_.plane(k); };
+  if (has_below) {
+    if (!slab_.atBottom()) {
+      slab_.receiveFromBelow(x(k0 - 1), n);
+      slab_.receiveFromBelow(gamma(k0 - 1), n);
+    }
+    for (int j = j0; j <= j1; ++j) eliminate(c, wall_change, lines, j, 0);
+    if (k1 < kw) {
+      slab_.sendUp(x(k1 - 1), n);
+      slab_.sendUp(gamma(k1 - 1), n);
     }
   }
-  for (int k = k0; k <= k1; ++k) {
-    const std::ptrdiff_t row = layout_.at(0, j, k);
-    double* __restrict d = v_star.c[component].data() + row;
-    const double* __restrict v = vn.c[component].data() + row;
-    for (int i = i0; i <= i1; ++i) d[i] += v[i];
+  if (has_above) {
+    if (!slab_.atTop()) {
+      slab_.receiveFromAbove(x(k1), n);
+      slab_.receiveFromAbove(gamma(k1), n);
+    }
+    for (int j = j0; j <= j1; ++j) eliminate(c, wall_change, lines, j, 1);
+    if (k0 > kw) {
+      slab_.sendDown(x(k0), n);
+      slab_.sendDown(gamma(k0), n);
+    }
+  }
+  if (k1 == kw) {
+    slab_.exchangeAbove(x(kw - 1), x(kw), n);
+    slab_.exchangeAbove(gamma(kw - 1), gamma(kw), n);
+  } else if (k0 == kw) {
+    slab_.exchangeBelow(x(kw), x(kw - 1), n);
+    slab_.exchangeBelow(gamma(kw), gamma(kw - 1), n);
+  }
+  if (k0 <= kw && k1 >= kw) {
+    for (int j = j0; j <= j1; ++j) join(lines, j);
+  }
+  if (has_below) {
+    if (k1 < kw) slab_.receiveFromAbove(x(k1), n);
+    for (int j = j0; j <= j1; ++j) substitute(lines, j, 0);
+    if (!slab_.atBottom()) slab_.sendDown(x(k0), n);
+  }
+  if (has_above) {
+    if (k0 > kw) slab_.receiveFromBelow(x(k0 - 1), n);
+    for (int j = j0; j <= j1; ++j) substitute(lines, j, 1);
+    if (!slab_.atTop()) slab_.sendUp(x(k1 - 1), n);
   }
 }
 

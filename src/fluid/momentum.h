@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "fluid/field.h"
 #include "fluid/frame.h"
 
@@ -24,7 +26,7 @@ struct MomentumStep {
 /// wall's velocity.
 class Momentum {
  public:
-  Momentum(const Grid& grid, const Layout& layout);
+  Momentum(const Grid& grid, const Layout& layout, const Slab& slab);
 
   /// Does what does not depend on the wall's new velocity. `vn`, `vm`: levels n and n-1; `c`:
   /// convecting field; `p`: pressure at n (layout of cells = faces (i,j,k)); `wall_n`: the wall at
@@ -51,8 +53,12 @@ class Momentum {
     double* lower;
     double* upper;
   };
-  int first(int component, int direction) const { return component == direction ? 1 : 0; }
-  int last(int, int direction) const { return layout_.n(direction) - 1; }
+  /// First and last unknown of a component along a direction; along z those of this process.
+  int first(int component, int direction) const {
+    const int whole = component == direction ? 1 : 0;
+    return direction == 2 ? std::max(whole, layout_.k0) : whole;
+  }
+  int last(int, int direction) const { return (direction == 2 ? layout_.k1 : layout_.n(direction)) - 1; }
   double position(int component, int direction, int index) const;
 
   void coefficients(const Velocity& c, int component, int direction, int j, int k, Row row) const;
@@ -61,19 +67,27 @@ class Momentum {
   void dissipate(const Velocity& vn, const Velocity& c, int component, int direction, int j, int k);
   void sweepX(const Velocity& c, int component, int k, const WallVelocity* wall_change);
   void sweepY(const Velocity& c, int component, int k, const WallVelocity* wall_change);
-  void sweepZ(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change, int component,
-              int j, Velocity& v_star);
+  /// The z factor: eliminated from both ends to the wing's plane, solved there, substituted outwards.
+  void sweepZ(const Velocity& c, const WallVelocity& wall_change, int component, Velocity& v_star);
+  struct Lines;  ///< the factors and right sides of the lines of one component
+  void eliminateRow(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j, int k,
+                    int towards);
+  void eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j, int half);
+  void join(const Lines& lines, int j) const;
+  void substitute(const Lines& lines, int j, int half) const;
   void fixWingFaces(const WallVelocity& wall_change, int j, double* lower, double* upper,
                     double* d) const;
 
   const Grid& grid_;
-  Layout layout_;
+  const Layout& layout_;
+  const Slab& slab_;
   Direction metric_[3][3];  ///< [component][direction]
   Array blocked_[3];        ///< per component, one plane
   MomentumStep step_{};
   Velocity delta_;    ///< after the x and y factors
   Array wing_plane_;  ///< right side of w in the wing's plane, before any factor
-  Array lower_, upper_, gamma_, zlower_, zupper_;  ///< scratch
+  Array lower_, upper_, gamma_, wall_diagonal_, wall_side_, zero_;  ///< scratch
+  Array gamma_field_;  ///< factors of all lines; only where several processes share them
 };
 
 }  // namespace monarch_flight

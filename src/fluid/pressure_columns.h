@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fluid/pressure_transform.h"
+#include "fluid/slab.h"
 
 namespace monarch_flight {
 
@@ -13,10 +14,11 @@ namespace monarch_flight {
 /// l = 1 / gap[k_wing]. e_d, e_u >= 0 are what the half columns conduct to elsewhere; they are
 /// built without subtraction. With closed outer faces the constant mode has e_d = e_u = 0: its
 /// system is singular, r_d + r_u = 0 after removeMean, and the solution with p_d + p_u = 0 is
-/// taken. All arrays over modes ("mode planes") are nx x ny: all modes of x by all modes of y.
+/// taken. A spectrum holds the planes of this process's slab; reduced rows pass from process to process
+/// towards the wing's plane and solved ones back. All arrays over modes ("mode planes") are nx x ny: all modes of x by all modes of y.
 class PressureColumns {
  public:
-  PressureColumns(const Grid& grid, const AxisModes& x, const AxisModes& y,
+  PressureColumns(const Grid& grid, const Slab& slab, const AxisModes& x, const AxisModes& y,
                   std::vector<SpectrumBlock> blocks);
   /// 1 - l g per mode, g: jump p_d - p_u answering a unit source below and sink above.
   Eigen::MatrixXd jumpComplement() const;
@@ -27,11 +29,15 @@ class PressureColumns {
   void removeMean(double* spectrum) const;
   /// Both eliminations, up to the wing's plane.
   void eliminate(double* spectrum) const;
+  /// Takes r_d and r_u to the processes that touch the wing's plane.
+  void meet(const double* spectrum) const;
+  /// True where r_d and r_u are known after `meet`.
+  bool touchesWing() const { return slab_.k0() <= k_wing_ && slab_.k1() >= k_wing_; }
   /// jump = p_d - p_u per mode as the eliminated system stands.
-  void jump(const double* spectrum, double* jump) const;
+  void jump(double* jump) const;
   /// r_d += source, r_u -= source.
-  void addDipole(const double* source, double* spectrum) const;
-  /// Back-substitution from the wing's plane outwards.
+  void addDipole(const double* source) const;
+  /// Solves at the wing's plane, then back-substitution outwards.
   void substitute(double* spectrum) const;
   /// The constant mode shifted to zero volume mean. Closed outer faces only.
   void centre(double* spectrum) const;
@@ -40,14 +46,24 @@ class PressureColumns {
   std::ptrdiff_t planeIndex(const SpectrumBlock& q, int b) const {
     return q.first_x + static_cast<std::ptrdiff_t>(q.first_y + b) * nx_;
   }
+  /// Row k of block q, mode b of y, in an array laid out as the spectrum.
+  std::ptrdiff_t row(const SpectrumBlock& q, int b, int k) const {
+    return q.offset + (static_cast<std::ptrdiff_t>(b) * slab_.planes() + k - slab_.k0()) * q.mx;
+  }
+  void takePlane(const double* spectrum, int k, double* plane) const;
+  void eliminateHalf(double* spectrum, int half) const;
+  void substituteHalf(double* spectrum, int half) const;
+  void solveAtWing(double* spectrum) const;
   void factor(const SpectrumBlock& q, int b, const Eigen::ArrayXd& lambda);
 
+  const Slab slab_;
   int nx_, ny_, nz_, k_wing_;
   std::vector<SpectrumBlock> blocks_;
   Eigen::ArrayXd width_, link_;  ///< cells; faces (1 / gap, 0 at a closed end)
   Eigen::ArrayXd reciprocal_;    ///< of the pivots, laid out as the spectrum
   /// Inverse of the 2 x 2 systems, and 1 - l g, as mode planes.
   Eigen::ArrayXd below_, cross_, above_, complement_;
+  mutable Eigen::ArrayXd r_d_, r_u_, passing_;  ///< mode planes: at the wing; between processes
 };
 
 }  // namespace monarch_flight

@@ -8,21 +8,24 @@
 #include "fluid/pressure_columns.h"
 #include "fluid/pressure_modes.h"
 #include "fluid/pressure_transform.h"
+#include "fluid/slab.h"
 
 namespace monarch_flight {
 
 struct PressureSolver::Impl {
-  explicit Impl(const Grid& g)
+  Impl(const Grid& g, const Slab& s)
       : grid(g),
+        slab(s),
         x(g.x, g.open),
         y(g.y, g.open),
-        transform(x, y, g.z.n()),
-        columns(g, x, y, transform.blocks()),
+        transform(x, y, slab.planes()),
+        columns(g, slab, x, y, transform.blocks()),
         wing(g, x, y, columns.jumpComplement()),
-        spectrum(Eigen::VectorXd::Zero(g.cells())),
+        spectrum(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n() * slab.planes())),
         wing_plane(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())) {}
 
   const Grid grid;
+  const Slab slab;
   const AxisModes x, y;
   const PlaneTransform transform;
   const PressureColumns columns;
@@ -31,10 +34,12 @@ struct PressureSolver::Impl {
   double setup_seconds = 0.0;
 };
 
-PressureSolver::PressureSolver(const Grid& grid) {
+PressureSolver::PressureSolver(const Grid& grid) : PressureSolver(grid, Slab(grid.z.n())) {}
+
+PressureSolver::PressureSolver(const Grid& grid, const Slab& slab) {
   const auto begin = std::chrono::steady_clock::now();
   useOneBlasThread();
-  impl_ = std::make_unique<Impl>(grid);
+  impl_ = std::make_unique<Impl>(grid, slab);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   impl_->setup_seconds = spent.count();
 }
@@ -42,17 +47,18 @@ PressureSolver::PressureSolver(const Grid& grid) {
 PressureSolver::~PressureSolver() = default;
 
 // 1. modes of x and y; 2. z from both ends to the wing's plane; 3. the wing's answer to the jump
-// there; 4. z back outwards; 5. modes to cells.
+// there (by each process that touches the plane, alike); 4. z back outwards; 5. modes to cells.
 void PressureSolver::solve(double* b_to_p) const {
   double* spectrum = impl_->spectrum.data();
   double* wing_plane = impl_->wing_plane.data();
   impl_->transform.forwardNegative(b_to_p, spectrum);
   if (!impl_->grid.open) impl_->columns.removeMean(spectrum);
   impl_->columns.eliminate(spectrum);
-  if (wingFaces() > 0) {
-    impl_->columns.jump(spectrum, wing_plane);
+  impl_->columns.meet(spectrum);
+  if (wingFaces() > 0 && impl_->columns.touchesWing()) {
+    impl_->columns.jump(wing_plane);
     impl_->wing.answer(wing_plane);
-    impl_->columns.addDipole(wing_plane, spectrum);
+    impl_->columns.addDipole(wing_plane);
   }
   impl_->columns.substitute(spectrum);
   if (!impl_->grid.open) impl_->columns.centre(spectrum);

@@ -7,14 +7,14 @@ namespace monarch_flight {
 
 void netOutflow(const Grid& grid, const Layout& l, const Velocity& v, double scale, double* b) {
   const double* hx = grid.x.width.data();
-  for (int k = 0; k < l.nz; ++k) {
+  for (int k = l.k0; k < l.k1; ++k) {
     for (int j = 0; j < l.ny; ++j) {
       const double hy = scale * grid.y.width[j], hz = grid.z.width[k];
       const std::ptrdiff_t row = l.at(0, j, k);
       const double* __restrict u = v.c[0].data() + row;
       const double* __restrict s = v.c[1].data() + row;
       const double* __restrict w = v.c[2].data() + row;
-      double* __restrict o = b + (static_cast<std::ptrdiff_t>(k) * l.ny + j) * l.nx;
+      double* __restrict o = b + (static_cast<std::ptrdiff_t>(k - l.k0) * l.ny + j) * l.nx;
       const double ax = hy * hz, ay = scale * hz;
       for (int i = 0; i < l.nx; ++i) {
         o[i] = ax * (u[i + 1] - u[i]) +
@@ -27,10 +27,10 @@ void netOutflow(const Grid& grid, const Layout& l, const Velocity& v, double sca
 void subtractGradient(const Grid& grid, const Layout& l, const double* phi, double scale,
                       Velocity& v) {
   const std::ptrdiff_t py = l.nx, pz = static_cast<std::ptrdiff_t>(l.nx) * l.ny;
-  for (int k = 0; k < l.nz; ++k) {
+  for (int k = l.k0; k < l.k1; ++k) {
     for (int j = 0; j < l.ny; ++j) {
       const std::ptrdiff_t row = l.at(0, j, k);
-      const double* __restrict q = phi + k * pz + j * py;
+      const double* __restrict q = phi + (k - l.k0) * pz + j * py;
       double* __restrict u = v.c[0].data() + row;
       double* __restrict s = v.c[1].data() + row;
       double* __restrict w = v.c[2].data() + row;
@@ -49,8 +49,8 @@ void subtractGradient(const Grid& grid, const Layout& l, const double* phi, doub
     }
   }
   if (!grid.open) return;
-  auto cell = [&](int i, int j, int k) { return phi[k * pz + j * py + i]; };
-  for (int k = 0; k < l.nz; ++k) {
+  auto cell = [&](int i, int j, int k) { return phi[(k - l.k0) * pz + j * py + i]; };
+  for (int k = l.k0; k < l.k1; ++k) {
     for (int j = 0; j < l.ny; ++j) {
       v.c[0][l.at(0, j, k)] -= scale / grid.x.gap[0] * cell(0, j, k);
       v.c[0][l.at(l.nx, j, k)] += scale / grid.x.gap[l.nx] * cell(l.nx - 1, j, k);
@@ -62,31 +62,32 @@ void subtractGradient(const Grid& grid, const Layout& l, const double* phi, doub
   }
   for (int j = 0; j < l.ny; ++j) {
     for (int i = 0; i < l.nx; ++i) {
-      v.c[2][l.at(i, j, 0)] -= scale / grid.z.gap[0] * cell(i, j, 0);
-      v.c[2][l.at(i, j, l.nz)] += scale / grid.z.gap[l.nz] * cell(i, j, l.nz - 1);
+      if (l.k0 == 0) v.c[2][l.at(i, j, 0)] -= scale / grid.z.gap[0] * cell(i, j, 0);
+      if (l.k1 == l.nz) v.c[2][l.at(i, j, l.nz)] += scale / grid.z.gap[l.nz] * cell(i, j, l.nz - 1);
     }
   }
 }
 
 namespace {
 
-/// Calls f(outer point, inner point) for the outer faces or ghosts of component c, direction d.
+/// Calls f(outer point, inner point) for the outer faces or ghosts of component c, direction d, on the
+/// planes of this process and on its neighbouring planes.
 template <class F>
 void forOuter(const Layout& l, int c, int d, F f) {
-  const int lo[3] = {-1, -1, -1};
-  const int hi[3] = {l.nx, l.ny, l.nz};
+  const int lo[3] = {-1, -1, l.k0 - 1}, hi[3] = {l.nx, l.ny, l.k1};
   const std::ptrdiff_t s = l.stride(d);
   const int low = c == d ? 0 : -1, high = l.n(d);
   const int e = (d + 1) % 3, g = (d + 2) % 3;
+  const bool has_low = d != 2 || l.k0 == 0, has_high = d != 2 || l.k1 == l.nz;
   int q[3];
   for (q[g] = lo[g]; q[g] <= hi[g]; ++q[g]) {
     for (q[e] = lo[e]; q[e] <= hi[e]; ++q[e]) {
       q[d] = low;
-      const std::ptrdiff_t a = l.at(q[0], q[1], q[2]);
-      f(a, a + s);
+      const std::ptrdiff_t a = has_low ? l.at(q[0], q[1], q[2]) : 0;
+      if (has_low) f(a, a + s);
       q[d] = high;
-      const std::ptrdiff_t b = l.at(q[0], q[1], q[2]);
-      f(b, b - s);
+      const std::ptrdiff_t b = has_high ? l.at(q[0], q[1], q[2]) : 0;
+      if (has_high) f(b, b - s);
     }
   }
 }
@@ -107,6 +108,7 @@ void fillOuter(const Grid& grid, const Layout& l, const Eigen::Vector3d& far, Ve
 }
 
 void fillWing(const Grid& grid, const Layout& l, const WallVelocity& wall, Velocity& v) {
+  if (grid.k_wing < l.k0 - 1 || grid.k_wing > l.k1) return;  // not among the planes stored here
   for (int j = 0; j < l.ny; ++j) {
     for (int i = 0; i < l.nx; ++i) {
       if (grid.isWing(i, j))
@@ -121,7 +123,7 @@ double relativeDivergence(const Grid& grid, const Layout& l, const Velocity& v) 
     for (double q : v.c[c]) speed = std::max(speed, std::abs(q));
   }
   if (speed == 0) return 0;
-  for (int k = 0; k < l.nz; ++k) {
+  for (int k = l.k0; k < l.k1; ++k) {
     for (int j = 0; j < l.ny; ++j) {
       for (int i = 0; i < l.nx; ++i) {
         const std::ptrdiff_t q = l.at(i, j, k);

@@ -5,12 +5,15 @@
 
 namespace monarch_flight {
 
-/// b = scale * net outflow of each cell [b: nx*ny*nz, no ghosts].
+/// Fields without ghosts (b, phi) hold the cells of this process: nx * ny * (k1 - k0), x fastest.
+
+/// b = scale * net outflow of each cell.
 void netOutflow(const Grid& grid, const Layout& l, const Velocity& v, double scale, double* b);
 /// v -= scale grad phi on all faces but the wing's; outer faces too when the boundary is open.
+/// In front of phi stands the plane k0 - 1 of the process below (unused at the bottom).
 void subtractGradient(const Grid& grid, const Layout& l, const double* phi, double scale,
                       Velocity& v);
-/// Outer faces and ghosts: the far field's uniform velocity (rest), or no change along the normal
+/// Outer faces and ghosts of this process's planes: the far field's uniform velocity (rest), or no change along the normal
 /// (open).
 void fillOuter(const Grid& grid, const Layout& l, const Eigen::Vector3d& far, Velocity& v);
 /// The wing's own faces take the wall's normal velocity.

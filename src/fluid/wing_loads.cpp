@@ -1,17 +1,23 @@
 #include "fluid/wing_loads.h"
 
+#include <algorithm>
+
 namespace monarch_flight {
 
-void pressureLoads(const Grid& grid, const WingPressure& p, double rho,
+void pressureLoads(const Grid& grid, const Layout& l, const WingPressure& p, double rho,
                    const WallVelocity& acceleration, Loads& loads) {
+  const bool below = grid.k_wing - 1 >= l.k0 && grid.k_wing - 1 < l.k1;
+  const bool above = grid.k_wing >= l.k0 && grid.k_wing < l.k1;
   double f = 0, mx = 0, my = 0;
   for (int j = 0; j < grid.y.n(); ++j) {
     for (int i = 0; i < grid.x.n(); ++i) {
       if (!grid.isWing(i, j)) continue;
       const double x = grid.x.centre[i], y = grid.y.centre[j];
       const double a_n = acceleration.at(2, x, y);
-      const double df =
-          grid.x.width[i] * grid.y.width[j] * (p.below(i, j, rho, a_n) - p.above(i, j, rho, a_n));
+      double jump = 0;
+      if (below) jump += p.below(i, j, rho, a_n);
+      if (above) jump -= p.above(i, j, rho, a_n);
+      const double df = grid.x.width[i] * grid.y.width[j] * jump;
       f += df;
       mx += y * df;
       my -= x * df;
@@ -40,8 +46,8 @@ void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, 
         const double area = b * gap * (c == 0 ? grid.y.width[j] : grid.x.width[i]);
         const double u_wall = wall.at(c, x, y);
         double df = 0;
-        for (int k = kw - 1; k <= kw; ++k) {
-          const double* q = phi + k * pz + static_cast<std::ptrdiff_t>(j) * l.nx + i;
+        for (int k = std::max(kw - 1, l.k0); k <= std::min(kw, l.k1 - 1); ++k) {
+          const double* q = phi + (k - l.k0) * pz + static_cast<std::ptrdiff_t>(j) * l.nx + i;
           const double u = v.c[c][l.at(i, j, k)] - scale / gap * (q[0] - q[-s]);
           df += mu * (u - u_wall) / (0.5 * grid.z.width[k]) * area;
         }

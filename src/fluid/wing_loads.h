@@ -12,7 +12,7 @@ namespace monarch_flight {
 /// cell.
 class WingPressure {
  public:
-  /// `p` with layout `l` plus `phi` without ghosts (may be null).
+  /// `p` with layout `l` (may be null) plus `phi` without ghosts (may be null).
   WingPressure(const Grid& grid, const Layout& l, const double* p, const double* phi)
       : grid_(grid), l_(l), p_(p), phi_(phi) {}
   double below(int i, int j, double rho, double a_n) const {  ///< on the side z < 0 [Pa]
@@ -25,7 +25,7 @@ class WingPressure {
  private:
   double cell(int i, int j, int k) const {
     const double base = p_ ? p_[l_.at(i, j, k)] : 0.0;
-    return phi_ ? base + phi_[(static_cast<std::ptrdiff_t>(k) * l_.ny + j) * l_.nx + i] : base;
+    return phi_ ? base + phi_[(static_cast<std::ptrdiff_t>(k - l_.k0) * l_.ny + j) * l_.nx + i] : base;
   }
   const Grid& grid_;
   const Layout& l_;
@@ -33,8 +33,10 @@ class WingPressure {
   const double* phi_;
 };
 
+/// The loads of the sides of the wing that touch cells of this process; to be summed over processes.
+
 /// Force and moment (about the origin) of the pressure jump.
-void pressureLoads(const Grid& grid, const WingPressure& p, double rho,
+void pressureLoads(const Grid& grid, const Layout& l, const WingPressure& p, double rho,
                    const WallVelocity& acceleration, Loads& loads);
 /// Force and moment of the shear on both sides. `v` minus `scale` grad `phi` is the velocity.
 void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, const Velocity& v,

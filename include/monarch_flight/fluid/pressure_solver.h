@@ -6,6 +6,8 @@
 
 namespace monarch_flight {
 
+class Slab;
+
 /// Direct solver of the Poisson equation on a Grid, the wing's faces carrying no flux.
 ///
 /// Finds p with, for every cell c:  sum over its faces f of (area_f / gap_f) (p_neighbour - p_c) = b_c ,
@@ -20,6 +22,9 @@ namespace monarch_flight {
 class PressureSolver {
  public:
   explicit PressureSolver(const Grid& grid);
+  /// On the processes of a slab, `solve` then sees the planes of this process
+  /// only, and all processes call it alike; `apply` is for one process that owns all.
+  PressureSolver(const Grid& grid, const Slab& slab);
   ~PressureSolver();
   PressureSolver(const PressureSolver&) = delete;
   PressureSolver& operator=(const PressureSolver&) = delete;
