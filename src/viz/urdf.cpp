@@ -112,11 +112,10 @@ std::string insectUrdf(const Insect& insect, const std::string& mesh_uri) {
   return out + "</robot>\n";
 }
 
-void writeModel(const Insect& insect, const std::string& directory, const std::string& mesh_uri) {
+void writeMeshes(const Insect& insect, const std::string& directory) {
   const std::filesystem::path folder(directory);
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  writeFile(folder / "insect.urdf", insectUrdf(insect, mesh_uri));
   writeFile(folder / "right_wing.stl", stlBytes(wingMesh(insect.planform, false)));
   if (insect.bare_wing) return;
   const Eigen::Vector3d here = Eigen::Vector3d::Zero();
