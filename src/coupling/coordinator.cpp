@@ -13,9 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kScaleDecay = 0.999;  // of the loads' running scale, per step
-constexpr double kDivergence = 1e3;    // growth of the residual at which an attempt is given up
-constexpr double kCautious = 0.25;     // relaxation of the second attempt over that of the first
+constexpr double kDivergence = 1e3;  // growth of the residual at which an attempt is given up
+constexpr double kCautious = 0.25;   // relaxation of the second attempt over that of the first
 
 bool due(std::uint32_t step, int every) {
   return every > 0 && step % static_cast<std::uint32_t>(every) == 0;
@@ -89,6 +88,7 @@ void Coordinator::start(const std::vector<StepSink*>& sinks) {
   }
   levels_ = 0;
   force_scale_ = moment_scale_ = 0.0;
+  increment_scales_.fill(0.0);
   out.interface = request.interface;
   finish(Loads(), out);
   out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
@@ -133,7 +133,8 @@ bool Coordinator::converge(const CouplingSettings& settings, const Interface& pr
     // 3. residual; the first sub-iteration has no loads to compare with
     const CouplingVector residual = increments(last.answer) - d;
     record.residual = named(residual);
-    record.load_residual = k == 0 ? 1.0 : loadChange(last.loads, previous);
+    record.load_residual =
+        k == 0 ? 1.0 : std::max(loadChange(last.loads, previous), imbalance(residual, d));
     previous = last.loads;
     // 4. converged, hopeless, or better next time
     const double largest = residual.cwiseAbs().maxCoeff();
@@ -203,8 +204,7 @@ void Coordinator::finish(const Loads& loads, CommittedStep& out) {
   history_[1] = history_[0];
   history_[0] = increments(committed_);
   levels_ = std::min(levels_ + 1, 3);
-  force_scale_ = std::max(kScaleDecay * force_scale_, loads.force().norm());
-  moment_scale_ = std::max(kScaleDecay * moment_scale_, loads.moment().norm());
+  updateScales(loads);
 }
 
 void Coordinator::abort(std::uint32_t step) noexcept {

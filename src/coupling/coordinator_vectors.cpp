@@ -9,6 +9,7 @@
 namespace monarch_flight {
 namespace {
 
+constexpr double kScaleDecay = 0.999;     // of the running scales, per step
 constexpr std::size_t kHistoryShown = 8;  // residuals in the diagnosis of a failure
 constexpr const char* kNames[4] = {"x", "z", "theta_B", "theta_R"};
 
@@ -66,6 +67,33 @@ double Coordinator::loadChange(const Loads& loads, const Loads& previous) const 
   const double moment = (loads.moment() - previous.moment()).norm();
   return std::max(relative(force, std::max(force_scale_, loads.force().norm())),
                   relative(moment, std::max(moment_scale_, loads.moment().norm())));
+}
+
+double Coordinator::imbalance(const CouplingVector& residual,
+                              const CouplingVector& increments) const {
+  const std::array<double, 4> r = named(residual), d = named(increments);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    largest =
+        std::max(largest, relative(std::abs(r[i]), std::max(increment_scales_[i], std::abs(d[i]))));
+  }
+  return largest;
+}
+
+void Coordinator::updateScales(const Loads& loads) {
+  // Worth noticing: a motion by the tolerance, and the load that moves the wing by it in one step.
+  const double noticed = settings_.tolerance;
+  const Appendage& wing = model_.insect.right;
+  force_scale_ =
+      std::max({kScaleDecay * force_scale_, loads.force().norm(), wing.m * scales_[0] * noticed});
+  moment_scale_ = std::max(
+      {kScaleDecay * moment_scale_, loads.moment().norm(), wing.J(1, 1) * scales_[3] * noticed});
+  const std::array<double, 4> d = named(history_[0]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    increment_scales_[i] = std::max({kScaleDecay * increment_scales_[i], std::abs(d[i]), noticed});
+  }
+  increment_scales_[0] = increment_scales_[1] =
+      std::max(increment_scales_[0], increment_scales_[1]);
 }
 
 std::string Coordinator::notConverged(const CommittedStep& step) const {

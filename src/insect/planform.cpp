@@ -50,6 +50,23 @@ std::vector<double> panelEnds(double y_root, double y_tip, const std::vector<dou
   return ends;
 }
 
+/// The trailing edge must not lie ahead of the leading one on [a, b], rounding relative to `scale`
+/// apart.
+void requireOrderedEdges(const std::function<double(double)>& leading,
+                         const std::function<double(double)>& trailing, double a, double b,
+                         double scale) {
+  constexpr int kSamples = 64;
+  for (int k = 0; k <= kSamples; ++k) {
+    const double y = a + (b - a) * k / kSamples;
+    const double chord = leading(y) - trailing(y);
+    if (chord >= -1e-12 * scale) continue;
+    std::ostringstream text;
+    text << "chord at y = " << y << " m is " << chord
+         << " m: must be >= 0; the trailing edge must not lie ahead of the leading edge";
+    reject(text.str());
+  }
+}
+
 }  // namespace
 
 Planform::Planform(std::function<double(double)> leading, std::function<double(double)> trailing,
@@ -73,21 +90,10 @@ Planform::Planform(std::function<double(double)> leading, std::function<double(d
   const std::vector<double> ends = panelEnds(y_root_, y_tip_, breaks_);
   x_min_ = trailing_(y_root_);
   x_max_ = leading_(y_root_);
-  double scale = 0.0;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     x_max_ = std::max(x_max_, extreme(leading_, ends[i], ends[i + 1], 1.0));
     x_min_ = std::min(x_min_, extreme(trailing_, ends[i], ends[i + 1], -1.0));
-    scale = std::max(scale, x_max_ - x_min_);
-    for (int k = 0; k <= 64; ++k) {
-      const double y = ends[i] + (ends[i + 1] - ends[i]) * k / 64.0;
-      const double c = leading_(y) - trailing_(y);
-      if (!(c >= -1e-12 * scale)) {
-        std::ostringstream text;
-        text << "chord at y = " << y << " m is " << c
-             << " m: must be >= 0; the trailing edge must not lie ahead of the leading edge";
-        reject(text.str());
-      }
-    }
+    requireOrderedEdges(leading_, trailing_, ends[i], ends[i + 1], x_max_ - x_min_);
   }
   area_ = moment(0, 0);
   if (!std::isfinite(area_) || !(area_ > 0.0)) reject("area must be > 0; give the outline a chord");

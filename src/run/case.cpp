@@ -20,33 +20,35 @@ std::string readName(Section& root) {
   return name;
 }
 
+/// Checks that look across sections, and the motion with its explicit start values.
+void finishCase(Case& c, const CaseMotion& motion, const InitialValues& initial, Faults& faults) {
+  const StartValues start = startValues(c, initial, *motion.motion, faults);
+  c.motion = std::make_shared<StartMotion>(motion.motion, start, c.time.t_start);
+  checkGrid(c, faults);
+}
+
 /// Reads all sections; what cannot be read keeps its default, with a fault.
 Case readCase(Section& root, Faults& faults) {
   Case c;
   c.name = readName(root);
   root.text("description");
-  const auto insect = readInsect(root.section("insect"), faults);
-  const bool bare = insect ? insect->bare_wing
-                           : root.resolved()["insect"]["kind"].as<std::string>("") == "bare_wing";
+  Section insect_section = root.section("insect");
+  const std::string kind = insect_section.textOf("kind");
+  const auto insect = readInsect(std::move(insect_section), faults);
   if (insect) c.insect = *insect;
   readFluid(root.section("fluid"), c);
   readGrid(root.section("grid"), c, faults);
-  const CaseMotion motion = readMotion(root.section("motion"), bare, faults);
+  const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", faults);
   const InitialValues initial = readInitial(root);
   c.free = readFree(root.section("free"));
   readTime(root.section("time"), motion.frequency, c);
-  const double mean_chord = insect ? insect->planform.meanChord() : 1.0;
-  readCoupling(root.section("coupling"), mean_chord, c, faults);
+  readCoupling(root.section("coupling"), insect ? insect->planform.meanChord() : 1.0, c, faults);
   readOutput(root.section("output"), c);
   c.watchdog_s = root.number("watchdog_s", {Bound::kPositive, "s", "60 is usual"});
   root.finish();
-
   if (insect) checkFree(c, faults);
   if (insect && motion.motion) checkMotion(c, motion, faults);
-  if (!root.clean()) return c;
-  const StartValues start = startValues(c, initial, *motion.motion, faults);
-  c.motion = std::make_shared<StartMotion>(motion.motion, start, c.time.t_start);
-  checkGrid(c, faults);
+  if (root.clean()) finishCase(c, motion, initial, faults);
   return c;
 }
 

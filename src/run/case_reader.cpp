@@ -93,6 +93,10 @@ bool Section::has(const std::string& key) const { return node_.IsMap() && node_[
 
 bool Section::isMap(const std::string& key) const { return has(key) && node_[key].IsMap(); }
 
+std::string Section::textOf(const std::string& key) const {
+  return has(key) && node_[key].IsScalar() ? node_[key].Scalar() : "";
+}
+
 void Section::fault(const std::string& key, const std::string& text) {
   faults_.add(pathOf(key) + text);
 }

@@ -48,6 +48,8 @@ class Section {
   std::string pathOf(const std::string& key) const;
   bool has(const std::string& key) const;
   bool isMap(const std::string& key) const;
+  /// The scalar of a key as it stands, "" when there is none; reads nothing.
+  std::string textOf(const std::string& key) const;
   /// No fault was added since this section was opened.
   bool clean() const { return !absent_ && faults_.count() == faults_at_start_; }
   void fault(const std::string& key, const std::string& text);

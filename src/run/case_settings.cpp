@@ -5,6 +5,17 @@
 #include "run/case_parts.h"
 
 namespace monarch_flight {
+namespace {
+
+/// Takes what `read` returns unless reading it was a fault; so bounds can be checked all together.
+template <typename Value, typename Read>
+void keep(Value& value, const Faults& faults, const Read& read) {
+  const std::size_t before = faults.count();
+  const Value found = read();
+  if (faults.count() == before) value = found;
+}
+
+}  // namespace
 
 void readFluid(Section section, Case& c) {
   const std::string solver = section.choice("solver", {"navier_stokes", "quasi_steady"});
@@ -27,7 +38,7 @@ void readGrid(Section section, Case& c, Faults& faults) {
   const bool custom = level == "custom";  // then every key must be there
   const auto number = [&](const char* key, double& value, const char* unit) {
     if (custom || section.has(key)) {
-      value = section.number(key, {Bound::kAny, unit, ""});
+      keep(value, faults, [&] { return section.number(key, {Bound::kAny, unit, ""}); });
     } else {
       section.put(key, exactText(value));
     }
@@ -46,7 +57,7 @@ void readGrid(Section section, Case& c, Faults& faults) {
   }
   number("courant_limit", g.courant_limit, "");
   section.finish();
-  if (section.clean()) faults.add(g.problems());
+  faults.add(g.problems());
 }
 
 FreeCoordinates readFree(Section section) {
@@ -105,22 +116,30 @@ void readCoupling(Section section, double mean_chord, Case& c, Faults& faults) {
   CouplingSettings& s = c.coupling;
   const std::string relaxation = section.choice("relaxation", {"constant", "aitken"});
   s.relaxation = relaxation == "constant" ? Relaxation::kConstant : Relaxation::kAitken;
-  s.omega_initial = section.number("omega_initial", {});
-  s.omega_min = section.number("omega_min", {});
-  s.omega_max = section.number("omega_max", {});
-  s.tolerance = section.number("tolerance", {});
-  s.load_tolerance = section.number("load_tolerance", {});
-  s.max_sub_iterations = section.integer("max_sub_iterations", "60 is usual");
-  s.prescribed_steps = section.integer("prescribed_steps", "the published value is 10");
+  const auto number = [&](const char* key, double& value) {
+    keep(value, faults, [&] { return section.number(key, {}); });
+  };
+  const auto integer = [&](const char* key, int& value, const char* remedy) {
+    keep(value, faults, [&] { return section.integer(key, remedy); });
+  };
+  number("omega_initial", s.omega_initial);
+  number("omega_min", s.omega_min);
+  number("omega_max", s.omega_max);
+  number("tolerance", s.tolerance);
+  number("load_tolerance", s.load_tolerance);
+  integer("max_sub_iterations", s.max_sub_iterations, "60 is usual");
+  integer("prescribed_steps", s.prescribed_steps, "the published value is 10");
   const YAML::Node length = section.take("length_scale");
   if (length.IsDefined() && length.IsScalar() && length.Scalar() == "mean_chord") {
     section.put("length_scale", std::string("mean_chord"));
     s.length_scale = mean_chord;
   } else {
-    s.length_scale = section.number("length_scale", {Bound::kAny, "m", "or mean_chord"});
+    keep(s.length_scale, faults, [&] {
+      return section.number("length_scale", {Bound::kAny, "m", "or mean_chord"});
+    });
   }
   section.finish();
-  if (section.clean()) faults.add(s.problems());
+  faults.add(s.problems());
 }
 
 void readOutput(Section section, Case& c) {

@@ -80,7 +80,7 @@ Eigen::Vector3d Summary::meanVelocity() const {
 
 double Summary::climbAngleDegrees() const {
   const Eigen::Vector3d v = meanVelocity();
-  return std::atan2(-v.z(), std::hypot(v.x(), v.y())) * kDegrees;
+  return std::atan2(0.0 - v.z(), std::hypot(v.x(), v.y())) * kDegrees;
 }
 
 const Range& Summary::subIterations() const { return solved_.count ? solved_ : all_; }
@@ -99,7 +99,7 @@ std::string Summary::json(const std::string& failure) const {
   j["steps"] = steps_;
   j["flaps"] = flaps();
   j["unconverged_steps"] = unconverged_;
-  j["sub_iterations"] = {{"mean", subIterations().mean()}, {"max", subIterations().max}};
+  j["sub_iterations"] = {{"mean", subIterations().mean()}, {"max", std::lround(subIterations().max)}};
   j["climb_angle_deg"] = climbAngleDegrees();
   j["speed_m_s"] = meanVelocity().norm();
   j["theta_B_deg"] = degrees(theta_B_);

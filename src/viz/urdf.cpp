@@ -20,16 +20,16 @@ std::string format(const char* text, ...) {
   return out;
 }
 
-std::string xyz(const Eigen::Vector3d& v) { return format("%.9g %.9g %.9g", v.x(), v.y(), v.z()); }
+std::string xyz(const Eigen::Vector3d& v) { return format("%.15g %.15g %.15g", v.x(), v.y(), v.z()); }
 
 // Mass, its centre and the inertia about the centre; J is about the link's origin.
 std::string inertial(double m, const Eigen::Vector3d& nu, const Eigen::Matrix3d& J) {
   const Eigen::Matrix3d C =
       J - m * (nu.squaredNorm() * Eigen::Matrix3d::Identity() - nu * nu.transpose());
   return "    <inertial>\n      <origin xyz=\"" + xyz(nu) + "\"/>\n" +
-         format("      <mass value=\"%.9g\"/>\n", m) +
-         format("      <inertia ixx=\"%.9g\" ixy=\"%.9g\" ixz=\"%.9g\" iyy=\"%.9g\" iyz=\"%.9g\" "
-                "izz=\"%.9g\"/>\n",
+         format("      <mass value=\"%.15g\"/>\n", m) +
+         format("      <inertia ixx=\"%.15g\" ixy=\"%.15g\" ixz=\"%.15g\" iyy=\"%.15g\" iyz=\"%.15g\" "
+                "izz=\"%.15g\"/>\n",
                 C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2)) +
          "    </inertial>\n";
 }
@@ -112,11 +112,10 @@ std::string insectUrdf(const Insect& insect, const std::string& mesh_uri) {
   return out + "</robot>\n";
 }
 
-void writeModel(const Insect& insect, const std::string& directory, const std::string& mesh_uri) {
+void writeMeshes(const Insect& insect, const std::string& directory) {
   const std::filesystem::path folder(directory);
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  writeFile(folder / "insect.urdf", insectUrdf(insect, mesh_uri));
   writeFile(folder / "right_wing.stl", stlBytes(wingMesh(insect.planform, false)));
   if (insect.bare_wing) return;
   const Eigen::Vector3d here = Eigen::Vector3d::Zero();

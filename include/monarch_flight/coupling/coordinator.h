@@ -21,7 +21,8 @@ struct CoupledOutcome {
 ///  1. predict: extrapolate the accelerations of the free coordinates, advance by Newmark: guess w^0
 ///  2. exchange: loads for w^k from the fluid, the body's acceleration from the flight, the wing's
 ///     pitch acceleration from the wing: answer w~^k
-///  3. residual: r^k = w~^k - w^k of each free coordinate, dimensionless; and the change of the loads
+///  3. residual: r^k = w~^k - w^k of each free coordinate, dimensionless; change and imbalance
+///     of the loads, relative to their running scales
 ///  4. converged when every component and the loads are within their tolerances; else accelerate:
 ///     w^{k+1} from w^k and r^k, and back to 2
 ///  5. commit: every participant keeps w^k, the interface of the last evaluation of the fluid
@@ -60,6 +61,8 @@ class Coordinator {
   Interface guess(const CouplingVector& increments, const Interface& prescribed) const;
   std::array<double, 4> named(const CouplingVector& increments) const;
   double loadChange(const Loads& loads, const Loads& previous) const;
+  double imbalance(const CouplingVector& residual, const CouplingVector& increments) const;
+  void updateScales(const Loads& loads);
   std::string notConverged(const CommittedStep& step) const;
 
   CoupledModel model_;
@@ -71,7 +74,9 @@ class Coordinator {
   Interface committed_;           // level n
   std::array<CouplingVector, 3> history_;          // increments of the levels n, n-1, n-2
   int levels_ = 0;                                 // how many of them are known
-  double force_scale_ = 0.0, moment_scale_ = 0.0;  // running scale of the loads
+  // Running scales: largest of the recent past, at least what is worth noticing.
+  double force_scale_ = 0.0, moment_scale_ = 0.0;
+  std::array<double, 4> increment_scales_{};
 };
 
 }  // namespace monarch_flight

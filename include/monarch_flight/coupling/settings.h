@@ -17,7 +17,9 @@ struct CouplingSettings {
   double omega_initial = 0.5;     ///< first (or constant) relaxation factor, (0, 1]
   double omega_min = 0.05, omega_max = 1.5;  ///< bounds of Aitken's factor (absolute value)
   double tolerance = 1e-8;        ///< on each dimensionless displacement residual: x/c, z/c, theta_B, theta_R
-  double load_tolerance = 1e-6;   ///< on the change of the loads between sub-iterations, relative to their running scale
+  /// On the loads, relative to their running scales: change of the air's force and moment between
+  /// sub-iterations, and what inertia is out of balance (the residual of each free acceleration).
+  double load_tolerance = 1e-6;
   int max_sub_iterations = 60;
   int prescribed_steps = 10;      ///< every coordinate follows the prescribed motion for these first steps
   double length_scale = 1.0;      ///< mean chord, makes displacements dimensionless [m]
@@ -28,7 +30,7 @@ struct CouplingSettings {
 struct IterationRecord {
   std::uint32_t step = 0, iteration = 0;
   std::array<double, 4> residual{};  ///< x/c, z/c, theta_B, theta_R; 0 for a prescribed coordinate
-  double load_residual = 0.0;        ///< relative change of the loads
+  double load_residual = 0.0;        ///< relative change of the air's loads and imbalance of inertia; 1 at first
   double relaxation = 0.0;           ///< factor applied after this sub-iteration
   double fluid_wall_s = 0.0;
 };

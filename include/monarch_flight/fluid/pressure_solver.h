@@ -21,6 +21,8 @@ class Slab;
 /// back-substitution: one forward and one inverse transform a solve.
 class PressureSolver {
  public:
+  /// Sets BLAS to one thread for the whole process (repeatable bit for bit). Throws
+  /// std::invalid_argument when the wing closes the whole plane of a closed box.
   explicit PressureSolver(const Grid& grid);
   /// On the processes of a slab, `solve` then sees the planes of this process
   /// only, and all processes call it alike; `apply` is for one process that owns all.
@@ -29,7 +31,8 @@ class PressureSolver {
   PressureSolver(const PressureSolver&) = delete;
   PressureSolver& operator=(const PressureSolver&) = delete;
 
-  /// In place: b in, p out; nx*ny*nz doubles, x fastest, 64-byte aligned. Allocates nothing.
+  /// In place: b in, p out; nx*ny*nz doubles, x fastest, best 64-byte aligned. Allocates nothing.
+  /// Uses scratch of this object: one call at a time.
   void solve(double* b_to_p) const;
   /// y = A p, the operator above, for checks (any p).
   void apply(const double* p, double* y) const;

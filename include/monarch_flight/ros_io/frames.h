@@ -1,4 +1,5 @@
 #pragma once
+#include <geometry_msgs/Point.h>
 #include <geometry_msgs/Quaternion.h>
 #include <geometry_msgs/TransformStamped.h>
 

@@ -21,8 +21,8 @@ constexpr char kAbdomen[] = "abdomen_joint";
 /// right_wing, and so on. Meshes are `mesh_uri` + right_wing.stl, left_wing.stl, thorax.stl, abdomen.stl.
 std::string insectUrdf(const Insect& insect, const std::string& mesh_uri);
 
-/// Writes insect.urdf and its meshes into `directory` (made if missing); the mesh_uri in it is given.
-/// Throws InputError when a file cannot be written.
-void writeModel(const Insect& insect, const std::string& directory, const std::string& mesh_uri);
+/// Writes the meshes of insectUrdf into `directory` (made if missing). Throws InputError when a file
+/// cannot be written.
+void writeMeshes(const Insect& insect, const std::string& directory);
 
 }  // namespace monarch_flight

@@ -70,7 +70,8 @@ Matrix6d stripAddedMass(const std::vector<Strip>& strips, double rho) {
     M += (0.25 * kPi * rho * c2 * s.dy) * normal * normal.transpose();
     M(4, 4) += kPi / 128.0 * rho * c2 * c2 * s.dy;
   }
-  return M;
+  const Matrix6d upper = M.triangularView<Eigen::Upper>();
+  return upper.selfadjointView<Eigen::Upper>();  // symmetric to the last bit
 }
 
 }  // namespace monarch_flight

@@ -1,0 +1,32 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/ros_io/bag_output.h"
+#include "monarch_flight/ros_io/flight_messages.h"
+#include "monarch_flight/run/progress.h"
+#include "monarch_flight/run/run_outputs.h"
+
+namespace monarch_flight {
+
+/// One flight with everything it writes and shows: files, bag (when recorded), topics, progress bar.
+/// The same for the coordinator node and for a run in one process.
+class FlightRun {
+ public:
+  /// Makes the folder `out`. `listeners` also get the messages. Throws InputError, OutputError.
+  FlightRun(const Case& c, const std::string& out, std::vector<MessageOutput*> listeners);
+  /// Flies; prints the end; returns an exit code.
+  int fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
+          const bool& stop);
+
+ private:
+  const Case& case_;
+  RunOutputs files_;
+  std::unique_ptr<BagOutput> bag_;
+  std::unique_ptr<MessageSink> messages_;
+  ProgressSink progress_;
+};
+
+}  // namespace monarch_flight

@@ -1,0 +1,25 @@
+#pragma once
+#include <functional>
+#include <string>
+
+#include "monarch_flight/coupling/participant.h"
+
+namespace monarch_flight {
+
+/// Exit codes of all executables.
+enum ExitCode { kExitComplete = 0, kExitFailed = 1, kExitInput = 2, kExitInterrupted = 130 };
+
+/// True once SIGINT or SIGTERM has come; set by the handlers that the mains below install.
+const bool& stopRequested();
+
+/// Mains of the executables: read, check, wire, run; return the exit code and print every failure as
+/// one message on stderr.
+int coordinatorMain(int argc, char** argv);
+int participantMain(Role role, int argc, char** argv);
+/// The same flight without a master: key:=value arguments.
+int inProcessMain(int argc, char** argv);
+/// Prints the URDF of a case's insect and writes its meshes: case:=<name or path>, out:=<folder>
+/// (default: ~/.ros/monarch_flight/model-<case>), mesh_uri:=<where the URDF finds them> (default: out).
+int insectModelMain(int argc, char** argv);
+
+}  // namespace monarch_flight

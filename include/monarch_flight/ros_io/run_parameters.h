@@ -1,0 +1,41 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "monarch_flight/run/case.h"
+
+namespace XmlRpc {
+class XmlRpcValue;
+}
+
+namespace monarch_flight {
+
+/// What a person may set for a run, on the command line (key:=value) or as ROS parameters of the
+/// namespace /monarch_flight; an empty text means not given.
+struct RunParameters {
+  std::string name = "climb";  ///< `case`: name or path of the case file
+  std::string out;             ///< folder of the results; empty: flights/<case>-<time>
+  std::string directory;       ///< where relative paths start; empty: the working directory
+  CaseOverrides overrides;     ///< fluid, grid, flaps, steps_per_flap, record
+  double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
+};
+
+/// Checks keys and values. `where` is put before a key in messages ("/monarch_flight/" or "").
+/// Throws InputError with every fault: unknown keys, ranks other than 1, a watchdog <= 0.
+RunParameters runParameters(const std::map<std::string, std::string>& values,
+                            const std::string& where);
+/// Of a command line; arguments of roslaunch (__name:=...) are skipped. Throws InputError.
+RunParameters runParameters(int argc, char** argv);
+/// Of the struct that the parameter server holds for the namespace `where`. Private parameters of the
+/// nodes other than diagnostic_period are unknown. Throws InputError.
+RunParameters runParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where);
+
+/// The case that the parameters name, with their overrides. Throws InputError.
+Case loadCase(const RunParameters& parameters);
+/// Where the run writes: absolute path.
+std::string outputDirectory(const RunParameters& parameters, const Case& c);
+/// The config folder: beside an installed package's executables, else in the source tree it was built
+/// from. Throws InputError when neither is there.
+std::string configDirectory();
+
+}  // namespace monarch_flight

@@ -1,0 +1,80 @@
+#include "monarch_flight/ros_io/coordinator_node.h"
+
+#include <random>
+
+#include "monarch_flight/ros_io/flight_run.h"
+#include "monarch_flight/ros_io/master.h"
+#include "monarch_flight/ros_io/node_main.h"
+#include "monarch_flight/ros_io/ros_output.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr Role kRoles[] = {Role::kFluid, Role::kFlight, Role::kWing};
+
+std::uint64_t randomRunId() {
+  std::random_device random;
+  return (static_cast<std::uint64_t>(random()) << 32 | random()) | 1u;  // never 0
+}
+
+RunParameters readParameters() {
+  XmlRpc::XmlRpcValue values = parametersOf(kNamespace);
+  return runParameters(values, std::string(kNamespace) + "/");
+}
+
+}  // namespace
+
+CoordinatorNode::CoordinatorNode(const bool& stop)
+    : stop_(stop), parameters_(readParameters()), case_(loadCase(parameters_)), node_(kNamespace) {
+  run_.id = randomRunId();
+  run_.limits = limitsFor(case_.watchdog_s);
+  run_.stop = &stop_;
+  for (Role role : kRoles) {
+    const LockstepIdentity identity{role, case_.name, case_.sha256};
+    participants_[static_cast<std::size_t>(role)] =
+        std::make_unique<RosParticipant>(node_, identity, run_);
+  }
+}
+
+int CoordinatorNode::run() {
+  try {
+    for (const auto& participant : participants_) participant->connect();
+    const int code = fly();
+    reportIgnored();
+    ros::WallDuration(0.2).sleep();  // the last messages are still on their way to the listeners
+    return code;
+  } catch (...) {
+    dismiss();
+    throw;
+  }
+}
+
+int CoordinatorNode::fly() {
+  RosOutput topics(node_);
+  FlightRun run(case_, outputDirectory(parameters_, case_), {&topics});
+  return run.fly(run_.id, *participants_[0], *participants_[1], *participants_[2], stop_);
+}
+
+void CoordinatorNode::dismiss() noexcept {
+  for (const auto& participant : participants_) {
+    try {
+      Request farewell;
+      farewell.key.run = run_.id;
+      farewell.key.phase = Phase::kAbort;
+      if (participant->connected()) participant->exchange(farewell);
+    } catch (const std::exception&) {  // gone already
+    }
+  }
+}
+
+void CoordinatorNode::reportIgnored() const {
+  for (const auto& participant : participants_) {
+    const LockstepCounters& counters = participant->counters();
+    if (counters.any()) {
+      ROS_INFO("messages of %s that were ignored: %s", participant->name().c_str(),
+               counters.describe().c_str());
+    }
+  }
+}
+
+}  // namespace monarch_flight

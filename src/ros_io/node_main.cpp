@@ -1,0 +1,109 @@
+#include "monarch_flight/ros_io/node_main.h"
+
+#include <ros/ros.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/ros_io/coordinator_node.h"
+#include "monarch_flight/ros_io/flight_run.h"
+#include "monarch_flight/ros_io/master.h"
+#include "monarch_flight/ros_io/participant_node.h"
+#include "monarch_flight/run/federation.h"
+#include "monarch_flight/viz/urdf.h"
+
+namespace monarch_flight {
+namespace {
+
+bool stop_requested = false;
+
+void requestStop(int) { stop_requested = true; }
+
+// Runs `body`; what it throws becomes a message and an exit code.
+int guarded(const std::string& name, const std::function<int()>& body) {
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
+  const auto tell = [&name](const char* what) {
+    std::cerr << name << ": " << what << std::endl;
+  };
+  try {
+    return body();
+  } catch (const InputError& e) {
+    tell(e.what());
+    return kExitInput;
+  } catch (const std::exception& e) {
+    tell(e.what());
+    return stop_requested ? kExitInterrupted : kExitFailed;
+  }
+}
+
+int nodeMain(const std::string& name, int argc, char** argv, const std::function<int()>& body) {
+  return guarded(name, [&] {
+    // Namespace of the package unless the launcher gives another.
+    if (std::getenv("ROS_NAMESPACE") == nullptr) setenv("ROS_NAMESPACE", kNamespace, 1);
+    ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
+    requireFreeMaster();
+    const int code = body();
+    ros::shutdown();
+    return code;
+  });
+}
+
+// Folder of the launcher's own files, as ROS has it.
+std::string rosHome() {
+  if (const char* home = std::getenv("ROS_HOME")) return home;
+  const char* home = std::getenv("HOME");
+  return std::string(home != nullptr ? home : ".") + "/.ros";
+}
+
+}  // namespace
+
+const bool& stopRequested() { return stop_requested; }
+
+int coordinatorMain(int argc, char** argv) {
+  return nodeMain("coordinator", argc, argv, [] { return CoordinatorNode(stop_requested).run(); });
+}
+
+int participantMain(Role role, int argc, char** argv) {
+  return nodeMain(roleName(role), argc, argv,
+                  [role] { return ParticipantNode(role, stop_requested).run(); });
+}
+
+int inProcessMain(int argc, char** argv) {
+  return guarded("fly_in_process", [&] {
+    const RunParameters parameters = runParameters(argc, argv);
+    const Case c = loadCase(parameters);
+    FlightRun run(c, outputDirectory(parameters, c), {});
+    InProcessFederation federation(c);
+    return run.fly(1, federation.participant(Role::kFluid), federation.participant(Role::kFlight),
+                   federation.participant(Role::kWing), stop_requested);
+  });
+}
+
+int insectModelMain(int argc, char** argv) {
+  return guarded("insect_model", [&] {
+    std::string uri;
+    std::vector<char*> others;
+    for (int i = 0; i < argc; ++i) {
+      const std::string argument = argv[i];
+      if (argument.rfind("mesh_uri:=", 0) == 0) {
+        uri = argument.substr(10);
+      } else {
+        others.push_back(argv[i]);
+      }
+    }
+    const RunParameters parameters = runParameters(static_cast<int>(others.size()), others.data());
+    const Case c = loadCase(parameters);
+    std::string folder = rosHome() + "/monarch_flight/model-" + c.name;
+    if (!parameters.out.empty()) folder = outputDirectory(parameters, c);
+    if (uri.empty()) uri = "file://" + folder + "/";
+    writeMeshes(c.insect, folder);
+    std::cout << insectUrdf(c.insect, uri);
+    return static_cast<int>(kExitComplete);
+  });
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,180 @@
+#include "monarch_flight/ros_io/run_parameters.h"
+
+#include <XmlRpcValue.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+
+#include "monarch_flight/math/errors.h"
+
+namespace monarch_flight {
+namespace {
+
+namespace fs = std::filesystem;
+using Values = std::map<std::string, std::string>;
+using Faults = std::vector<std::string>;
+
+const char kKnown[] =
+    "case, out, directory, fluid, grid, flaps, steps_per_flap, record, ranks, watchdog";
+
+bool oneOf(const std::string& key, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (key == name) return true;
+  }
+  return false;
+}
+
+// The shortest text that reads back as the same number: nodes and command line then agree bit for bit.
+std::string shortest(double value) {
+  char text[40];
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value) break;
+  }
+  return text;
+}
+
+double positiveNumber(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return (*end == '\0' && std::isfinite(value) && value > 0.0) ? value : 0.0;
+}
+
+void take(const std::string& key, const std::string& value, const std::string& where,
+          RunParameters& out, Faults& faults) {
+  const std::string shown = where + key + " = " + value;
+  if (key == "case") {
+    out.name = value;
+  } else if (key == "out") {
+    out.out = value;
+  } else if (key == "directory") {
+    out.directory = value;
+  } else if (oneOf(key, {"fluid", "grid", "flaps", "steps_per_flap", "record"})) {
+    out.overrides[key] = value;
+  } else if (key == "watchdog") {
+    out.watchdog_s = positiveNumber(value);
+    if (out.watchdog_s == 0.0) faults.push_back(shown + ": must be a number of seconds > 0");
+  } else if (key == "ranks") {
+    if (value != "1") {
+      faults.push_back(shown + ": parallel runs are not available in this version; use ranks:=1");
+    }
+  } else {
+    faults.push_back(where + key + ": unknown parameter; known are " + kKnown);
+  }
+}
+
+RunParameters checked(const Values& values, const std::string& where, Faults faults) {
+  RunParameters out;
+  for (const auto& [key, value] : values) {
+    if (!value.empty()) take(key, value, where, out, faults);
+  }
+  if (!faults.empty()) throw InputError(faults);
+  return out;
+}
+
+std::string text(XmlRpc::XmlRpcValue& value) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return static_cast<bool>(value) ? "true" : "false";
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return std::to_string(static_cast<int>(value));
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      return shortest(static_cast<double>(value));
+    default:
+      return value.getType() == XmlRpc::XmlRpcValue::TypeString ? static_cast<std::string>(value)
+                                                                : std::string();
+  }
+}
+
+// A struct under a key: private parameters of the node of that name.
+void checkNested(const std::string& key, XmlRpc::XmlRpcValue& nested, const std::string& where,
+                 Faults& faults) {
+  if (nested.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    faults.push_back(where + key + ": must be a number, a text, true or false");
+    return;
+  }
+  for (auto& entry : nested) {
+    if (key == "coordinator" && entry.first == "diagnostic_period") continue;
+    faults.push_back(where + key + "/" + entry.first + ": unknown parameter; known are " + kKnown +
+                     ", in " + where);
+  }
+}
+
+}  // namespace
+
+RunParameters runParameters(const Values& values, const std::string& where) {
+  return checked(values, where, {});
+}
+
+RunParameters runParameters(int argc, char** argv) {
+  Values values;
+  Faults faults;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::size_t mark = argument.find(":=");
+    if (argument.rfind("__", 0) == 0) continue;
+    if (mark == std::string::npos || mark == 0) {
+      faults.push_back("'" + argument + "': must be key:=value; known keys are " + kKnown);
+    } else if (!values.emplace(argument.substr(0, mark), argument.substr(mark + 2)).second) {
+      faults.push_back("'" + argument + "': this key is given twice; give it once");
+    }
+  }
+  return checked(values, "", faults);
+}
+
+RunParameters runParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where) {
+  Values values;
+  Faults faults;
+  if (parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
+    for (auto& entry : parameters) {
+      const auto type = entry.second.getType();
+      const bool scalar = type == XmlRpc::XmlRpcValue::TypeBoolean ||
+                          type == XmlRpc::XmlRpcValue::TypeInt ||
+                          type == XmlRpc::XmlRpcValue::TypeDouble ||
+                          type == XmlRpc::XmlRpcValue::TypeString;
+      if (scalar) {
+        values[entry.first] = text(entry.second);
+      } else {
+        checkNested(entry.first, entry.second, where, faults);
+      }
+    }
+  }
+  return checked(values, where, faults);
+}
+
+Case loadCase(const RunParameters& parameters) {
+  std::string name = parameters.name;
+  const bool path = name.find('/') != std::string::npos || name.find(".yaml") != std::string::npos;
+  if (path && !parameters.directory.empty()) name = fs::path(parameters.directory) / name;
+  Case c = loadCase(name, parameters.overrides, configDirectory());
+  if (parameters.watchdog_s > 0.0) c.watchdog_s = parameters.watchdog_s;
+  return c;
+}
+
+std::string outputDirectory(const RunParameters& parameters, const Case& c) {
+  const fs::path base =
+      parameters.directory.empty() ? fs::current_path() : fs::path(parameters.directory);
+  if (!parameters.out.empty()) return fs::absolute(base / parameters.out).lexically_normal();
+  const std::time_t now = std::time(nullptr);
+  char stamp[32];
+  std::strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", std::localtime(&now));
+  return fs::absolute(base / "flights" / (c.name + "-" + stamp)).lexically_normal();
+}
+
+std::string configDirectory() {
+  std::error_code none;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", none);
+  // <prefix>/lib/monarch_flight/<executable> and <prefix>/share/monarch_flight/config
+  const fs::path installed =
+      executable.parent_path().parent_path().parent_path() / "share/monarch_flight/config";
+  if (fs::is_directory(installed, none)) return installed;
+  const fs::path source = fs::path(MONARCH_SOURCE_SHARE) / "config";
+  if (fs::is_directory(source, none)) return source;
+  throw InputError("no configuration: neither " + installed.string() + " nor " + source.string() +
+                   " exists; build or install the package again");
+}
+
+}  // namespace monarch_flight

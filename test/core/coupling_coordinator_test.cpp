@@ -1,0 +1,347 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/coupling_fakes.h"
+#include "monarch_flight/coupling/coordinator.h"
+#include "monarch_flight/coupling/interface_values.h"
+#include "monarch_flight/flight/flight_solver.h"
+
+namespace monarch_flight {
+namespace {
+
+using testing::Federation;
+using testing::LinearAir;
+using testing::monarchAir;
+
+constexpr FreeCoordinates kAllFree = {true, true, true, true};
+
+/// All equations of a step at once: Newton on the generalised forces of the 15-velocity system,
+/// rows x, z, pitch and right hinge. Shares neither solvers nor loop with the coordinator.
+class Monolith {
+ public:
+  Monolith(const CoupledModel& model, const LinearAir& air)
+      : model_(model), air_(air), dynamics_(model.insect, model.gravity) {}
+
+  Interface step(const Interface& n, double t_n, double t) const {
+    const Vector6d velocity_n =
+        LinearAir::velocity(rightWingMotion(model_.insect, n.body, model_.angles(t_n, n.theta_R)));
+    Eigen::Vector4d a(n.body.a.x(), n.body.a.z(), n.body.pitch.qdd, n.theta_R.qdd);
+    for (int newton = 0; newton < 6; ++newton) {
+      const Eigen::Vector4d r = residual(n, velocity_n, t, a);
+      Eigen::Matrix4d jacobian;
+      for (int j = 0; j < 4; ++j) {
+        const double h = j < 2 ? 1.0 : 100.0;
+        Eigen::Vector4d shifted = a;
+        shifted(j) += h;
+        jacobian.col(j) = (residual(n, velocity_n, t, shifted) - r) / h;
+      }
+      a -= jacobian.fullPivLu().solve(r);
+    }
+    return at(n, t, a);
+  }
+
+ private:
+  Interface at(const Interface& n, double t, const Eigen::Vector4d& a) const {
+    Interface next = model_.prescribed(t);
+    next.body = advancedBody(n.body, next.body, model_.free, model_.newmark, a.head<3>());
+    next.theta_R = model_.newmark.advance(n.theta_R, a(3));
+    return next;
+  }
+  Eigen::Vector4d residual(const Interface& n, const Vector6d& velocity_n, double t,
+                           const Eigen::Vector4d& a) const {
+    const Interface next = at(n, t, a);
+    const JointAngles angles = model_.angles(t, next.theta_R);
+    const Loads loads = air_.law(velocity_n, rightWingMotion(model_.insect, next.body, angles));
+    const InsectMotion motion = insectMotion(model_.insect.beta, next.body, angles);
+    Vector15d rest = dynamics_.inertialForce(motion) - dynamics_.gravityForce(motion) -
+                     dynamics_.airForce(motion, loads);
+    rest(7) += model_.insect.kappa * (next.theta_R.q - model_.insect.theta_0);
+    return {rest(0), rest(2), rest(4), rest(7)};
+  }
+  CoupledModel model_;
+  const LinearAir& air_;
+  MultibodyDynamics dynamics_;
+};
+
+double dimensionlessDistance(const Interface& a, const Interface& b, double length) {
+  return std::max({(a.body.x - b.body.x).cwiseAbs().maxCoeff() / length,
+                   std::abs(a.body.pitch.q - b.body.pitch.q), std::abs(a.theta_R.q - b.theta_R.q)});
+}
+
+class AddedMass : public ::testing::TestWithParam<double> {};
+
+/// Every committed step, seen from the level committed before.
+TEST_P(AddedMass, StepsAreMonolithicWithinTheTolerance) {
+  Federation f(testing::coupledModel(kAllFree, 200), testing::couplingSettings(),
+               monarchAir(GetParam()));
+  const CoupledOutcome outcome = f.run();
+  ASSERT_TRUE(outcome.complete) << outcome.failure;
+  const Monolith monolith(f.model, *f.air);
+  for (std::uint32_t step = 11; step <= 200; ++step) {
+    const Interface exact =
+        monolith.step(f.sink.steps[step - 1].interface, f.model.time(step - 1), f.model.time(step));
+    ASSERT_LT(dimensionlessDistance(f.sink.steps[step].interface, exact, f.settings.length_scale),
+              1e-9)
+        << "step " << step;
+  }
+}
+
+/// The whole flight: errors of accelerations add up over the steps, so the tolerances are tight.
+TEST_P(AddedMass, FlightIsTheMonolithicOne) {
+  CouplingSettings settings = testing::couplingSettings();
+  settings.tolerance = 1e-12;
+  settings.load_tolerance = 1e-9;
+  Federation f(testing::coupledModel(kAllFree, 200), settings, monarchAir(GetParam()));
+  const CoupledOutcome outcome = f.run();
+  ASSERT_TRUE(outcome.complete) << outcome.failure;
+  ASSERT_EQ(f.sink.steps.size(), 201u);
+  const Monolith monolith(f.model, *f.air);
+  Interface exact = f.sink.steps[10].interface;
+  for (std::uint32_t step = 11; step <= 200; ++step) {
+    exact = monolith.step(exact, f.model.time(step - 1), f.model.time(step));
+    ASSERT_LT(dimensionlessDistance(f.sink.steps[step].interface, exact, f.settings.length_scale),
+              1e-8)
+        << "step " << step;
+  }
+  // It has flown: the coordinates are far from the prescribed ones.
+  const Interface prescribed = f.model.prescribed(f.model.time(200));
+  EXPECT_GT(std::abs(exact.theta_R.q - prescribed.theta_R.q), 0.05);
+  EXPECT_GT(std::abs(exact.body.pitch.q - prescribed.body.pitch.q), 0.005);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ratios, AddedMass, ::testing::Values(0.0, 0.5, 1.0, 2.0, 5.0));
+
+class Coordination : public ::testing::Test {
+ protected:
+  Coordination()
+      : f_(testing::coupledModel(kAllFree, 30), testing::couplingSettings(), monarchAir(1.0)) {}
+  /// A federation like the usual one with other settings.
+  Federation with(const CouplingSettings& settings, double ratio = 1.0) const {
+    return Federation(f_.model, settings, monarchAir(ratio));
+  }
+  Federation f_;
+};
+
+TEST_F(Coordination, ConvergedStepsMeetEveryTolerance) {
+  ASSERT_TRUE(f_.run().complete);
+  for (const CommittedStep& step : f_.sink.steps) {
+    EXPECT_TRUE(step.converged);
+    EXPECT_EQ(step.prescribed, step.step <= 10);
+    if (step.prescribed) continue;
+    ASSERT_GE(step.iterations.size(), 2u);
+    for (std::size_t k = 0; k < step.iterations.size(); ++k) {
+      const IterationRecord& record = step.iterations[k];
+      EXPECT_EQ(record.step, step.step);
+      EXPECT_EQ(record.iteration, k);
+      double largest = 0.0;
+      for (double r : record.residual) largest = std::max(largest, std::abs(r));
+      const bool converged =
+          largest <= f_.settings.tolerance && record.load_residual <= f_.settings.load_tolerance;
+      EXPECT_EQ(converged, k + 1 == step.iterations.size());
+      EXPECT_EQ(record.relaxation == 0.0, converged);
+    }
+  }
+}
+
+TEST_F(Coordination, CommitsTheInterfaceOfTheLastLoads) {
+  ASSERT_TRUE(f_.run().complete);
+  std::size_t committed = 0;
+  for (const testing::Recorder* p : {f_.fluid.get(), f_.flight.get(), f_.wing.get()}) {
+    const Request* last = nullptr;
+    for (const Request& r : p->requests) {
+      if (r.key.phase == Phase::kIterate) last = &r;
+      if (r.key.phase != Phase::kCommit) continue;
+      const CommittedStep& step = f_.sink.steps[r.key.step];
+      EXPECT_EQ(r.key.iteration, last->key.iteration);
+      EXPECT_TRUE(same(r.interface, step.interface));
+      EXPECT_TRUE(same(last->interface.theta_R, step.interface.theta_R));
+      EXPECT_TRUE(p == f_.wing.get() || same(last->interface, step.interface));
+      EXPECT_TRUE(p == f_.fluid.get() || last->loads.moment() == step.loads.moment());
+      ++committed;
+    }
+  }
+  EXPECT_EQ(committed, 3u * 30u);
+}
+
+TEST_F(Coordination, RunsAreRepeatableBitForBit) {
+  Federation again = with(f_.settings);
+  ASSERT_TRUE(f_.run().complete);
+  ASSERT_TRUE(again.run().complete);
+  for (std::size_t i = 0; i < f_.sink.steps.size(); ++i) {
+    EXPECT_TRUE(same(f_.sink.steps[i].interface, again.sink.steps[i].interface));
+    EXPECT_EQ(f_.sink.steps[i].loads.force(), again.sink.steps[i].loads.force());
+  }
+}
+
+TEST_F(Coordination, PrescribedStartTakesOneEvaluationAStep) {
+  ASSERT_TRUE(f_.run().complete);
+  EXPECT_TRUE(same(f_.sink.steps[0].interface, f_.model.prescribed(f_.model.t_start)));
+  for (std::uint32_t i = 1; i <= 10; ++i) {
+    const CommittedStep& step = f_.sink.steps[i];
+    EXPECT_EQ(step.iterations.size(), 1u);
+    EXPECT_TRUE(same(step.interface, f_.model.prescribed(f_.model.time(i))));
+    EXPECT_GT(step.loads.force().norm(), 0.0);
+  }
+  EXPECT_GT(f_.sink.steps[11].iterations.size(), 1u);
+}
+
+TEST_F(Coordination, NothingFreeFollowsTheMotion) {
+  f_.model.free = {};
+  Federation tethered(f_.model, f_.settings, monarchAir(1.0));
+  ASSERT_TRUE(tethered.run().complete);
+  EXPECT_EQ(tethered.air->evaluations, 30);
+  for (const CommittedStep& step : tethered.sink.steps) {
+    EXPECT_TRUE(step.prescribed);
+    EXPECT_TRUE(same(step.interface, f_.model.prescribed(step.t)));
+    EXPECT_EQ(step.t, f_.model.time(step.step));
+  }
+}
+
+TEST_F(Coordination, OnlyWhatIsFreeMoves) {
+  f_.model.free = {false, true, false, true};
+  Federation partly(f_.model, f_.settings, monarchAir(1.0));
+  ASSERT_TRUE(partly.run().complete);
+  const CommittedStep& last = partly.sink.steps.back();
+  const Interface prescribed = f_.model.prescribed(last.t);
+  EXPECT_EQ(last.interface.body.x.x(), prescribed.body.x.x());
+  EXPECT_EQ(last.interface.body.R_IB, prescribed.body.R_IB);
+  EXPECT_NE(last.interface.body.x.z(), prescribed.body.x.z());
+  EXPECT_NE(last.interface.theta_R.q, prescribed.theta_R.q);
+  for (const IterationRecord& record : last.iterations) {
+    EXPECT_EQ(record.residual[0], 0.0);
+    EXPECT_EQ(record.residual[2], 0.0);
+  }
+}
+
+TEST_F(Coordination, ForceIsThatOfBothWingsInInertialAxes) {
+  ASSERT_TRUE(f_.run().complete);
+  const CommittedStep& step = f_.sink.steps.back();
+  const Eigen::Matrix3d R_IB = step.interface.body.R_IB;
+  const Eigen::Vector3d right =
+      wingAttitude(f_.model.insect.beta, step.angles) * step.loads.force();
+  const Eigen::Vector3d both = R_IB * Eigen::Vector3d(2.0 * right.x(), 0.0, 2.0 * right.z());
+  EXPECT_LT((step.force_I - both).norm(), 1e-14 * both.norm());
+  EXPECT_EQ(step.angles.theta.q, step.interface.theta_R.q);
+}
+
+TEST_F(Coordination, StepsComeInOrderAndTheEndOnce) {
+  f_.model.surface_every = 5;
+  f_.model.vortices_every = 10;
+  Federation f(f_.model, f_.settings, monarchAir(1.0));
+  ASSERT_TRUE(f.run().complete);
+  EXPECT_EQ(f.sink.ends, 1);
+  EXPECT_EQ(f.sink.failure, "");
+  ASSERT_EQ(f.sink.steps.size(), 31u);
+  EXPECT_EQ(f.sink.steps[0].fluid.cells, 42);
+  for (std::uint32_t i = 0; i <= 30; ++i) {
+    const CommittedStep& step = f.sink.steps[i];
+    EXPECT_EQ(step.step, i);
+    EXPECT_EQ(step.surface.facets.size(), i > 0 && i % 5 == 0 ? 1u : 0u);
+    EXPECT_EQ(step.vortices.size(), i > 0 && i % 10 == 0 ? 1u : 0u);
+  }
+  for (const testing::Recorder* p : {f.fluid.get(), f.flight.get(), f.wing.get()}) {
+    EXPECT_EQ(p->count(Phase::kStart), 1);
+    EXPECT_EQ(p->count(Phase::kCommit), 30);
+    EXPECT_EQ(p->count(Phase::kAbort), 1);
+  }
+}
+
+TEST_F(Coordination, ADivergingStepIsRetriedWithSmallerRelaxation) {
+  CouplingSettings settings = f_.settings;
+  settings.relaxation = Relaxation::kConstant;
+  settings.omega_initial = 1.0;  // diverges; a quarter of it converges
+  settings.max_sub_iterations = 200;
+  Federation f = with(settings, 8.0);
+  const CoupledOutcome outcome = f.run();
+  ASSERT_TRUE(outcome.complete) << outcome.failure;
+  Federation reference = with(f_.settings, 8.0);
+  ASSERT_TRUE(reference.run().complete);
+  EXPECT_LT(dimensionlessDistance(f.sink.steps.back().interface,
+                                  reference.sink.steps.back().interface, settings.length_scale),
+            1e-7);
+  const auto& records = f.sink.steps.back().iterations;
+  EXPECT_EQ(records.front().relaxation, 1.0);
+  EXPECT_EQ(records[records.size() - 2].relaxation, 0.25);
+}
+
+TEST_F(Coordination, AnUnconvergedStepEndsTheRunWithADiagnosis) {
+  CouplingSettings settings = f_.settings;
+  settings.max_sub_iterations = 3;
+  Federation f = with(settings);
+  const CoupledOutcome outcome = f.run();
+  EXPECT_FALSE(outcome.complete);
+  for (const char* words : {"step 11", "did not converge in 6 sub-iterations", "theta_R",
+                            "(too large)", "coupling/max_sub_iterations"}) {
+    EXPECT_NE(outcome.failure.find(words), std::string::npos) << outcome.failure;
+  }
+  EXPECT_EQ(f.sink.failure, outcome.failure);
+  EXPECT_EQ(f.sink.ends, 1);
+  EXPECT_EQ(f.sink.steps.back().step, 10u);  // nothing unconverged is delivered ...
+  EXPECT_EQ(f.air->commits, 10);             // ... or committed
+  EXPECT_EQ(f.air->evaluations, 16);
+  EXPECT_EQ(f.wing->count(Phase::kAbort), 1);
+}
+
+TEST_F(Coordination, NonFiniteAnswersEndTheRunWithTheirPlace) {
+  f_.wing->change = [](Reply& reply) {
+    if (reply.key.step == 4) reply.interface.theta_R.q = std::numeric_limits<double>::quiet_NaN();
+  };
+  const CoupledOutcome outcome = f_.run();
+  EXPECT_FALSE(outcome.complete);
+  EXPECT_EQ(outcome.failure, "wing, step 4, iteration 0, ITERATE: non-finite number in the answer");
+  EXPECT_EQ(f_.sink.steps.size(), 4u);
+}
+
+TEST_F(Coordination, FailuresOfAParticipantEndTheRun) {
+  f_.air->fail = [](int n) {
+    if (n == 3) throw NumericalError("the air broke");
+  };
+  EXPECT_EQ(f_.run().failure, "fluid, step 3, iteration 0, ITERATE: the air broke");
+
+  Federation silent = with(f_.settings);
+  silent.flight->change = [](Reply& reply) {
+    if (reply.key.step == 2) throw ExchangeError("flight did not answer");
+  };
+  EXPECT_EQ(silent.run().failure, "flight did not answer");
+  EXPECT_EQ(silent.sink.ends, 1);
+
+  Federation confused = with(f_.settings);
+  confused.fluid->change = [](Reply& reply) { reply.key.iteration += reply.key.step == 2; };
+  EXPECT_NE(confused.run().failure.find("belongs to another request"), std::string::npos);
+}
+
+TEST_F(Coordination, StopInterruptsBetweenSubIterations) {
+  f_.sink.each = [this](const CommittedStep& step) { f_.stop = step.step == 12; };
+  const CoupledOutcome outcome = f_.run();
+  EXPECT_FALSE(outcome.complete);
+  EXPECT_EQ(outcome.failure, "interrupted in step 13; step 12 is the last one committed");
+  EXPECT_EQ(f_.sink.steps.back().step, 12u);
+  EXPECT_EQ(f_.fluid->count(Phase::kAbort), 1);
+}
+
+TEST_F(Coordination, AFailingSinkEndsTheRun) {
+  f_.sink.each = [](const CommittedStep& step) {
+    if (step.step == 5) throw std::runtime_error("no space left on device");
+  };
+  EXPECT_EQ(f_.run().failure, "no space left on device");
+  EXPECT_EQ(f_.sink.ends, 1);
+}
+
+TEST_F(Coordination, BadModelAndSettingsAreRefusedTogether) {
+  f_.model.newmark.dt = 0.0;
+  f_.model.newmark.beta = 0.0;
+  f_.settings.tolerance = -1.0;
+  try {
+    Coordinator(f_.model, f_.settings, *f_.fluid, *f_.flight, *f_.wing, 1);
+    FAIL();
+  } catch (const InputError& e) {
+    const std::string what = e.what();
+    for (const char* key : {"time/dt", "newmark/beta", "coupling/tolerance"}) {
+      EXPECT_NE(what.find(key), std::string::npos) << what;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace monarch_flight

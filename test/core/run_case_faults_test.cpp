@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include "core/case_fixture.h"
+
+namespace monarch_flight {
+namespace {
+
+TEST_F(CaseTest, AllFaultsAtOnce) {
+  const std::string text = faults(write("bad.yaml", R"(
+name: bad name!
+insect:
+  preset: monarch_paper
+  wing: {mass: -1, masss: 2, planform: {type: rectangle, chord: 1e-2, span: 0, hinge: 0}}
+  body: 3
+fluid: {solver: dns, density: .inf, gravity: abc, wind: [0, 0]}
+grid: {level: preview, margin: -1, outer: closed}
+motion: {type: fourier, series: monarch, frequency: -3, body: {position: [0, 0, nan], velocity: 1}}
+initial: {theta_R: x}
+free: {x: yes, z: true, pitch: true}
+time: {steps_per_flap: 2.5, flaps: 0, foo: 1}
+coupling: {tolerance: -1}
+watchdog_s: 0
+watchdog_s: 1
+extra: 1
+)"),
+                                  {{"foo", "1"}});
+  for (const char* part : {"name = 'bad name!'",
+                           "insect/wing/mass = -1 kg: must be > 0",
+                           "insect/wing/masss is not a known key",
+                           "insect/wing/planform/span = 0 m: must be > 0",
+                           "insect/wing/planform/root_offset is missing",
+                           "insect/body = '3': must be a section",
+                           "fluid/solver = 'dns'",
+                           "fluid/density = '.inf': must be a number",
+                           "fluid/gravity = 'abc'",
+                           "fluid/wind has 2 values: must be 3",
+                           "grid/margin = -1",
+                           "coupling/tolerance = -1",
+                           "grid/outer",
+                           "motion/frequency = -3 Hz: must be >= 0",
+                           "motion/body/position[2] = nan m: must be a finite number",
+                           "motion/body/velocity = '1': must be a list",
+                           "initial/theta_R = 'x'",
+                           "free/x = 'yes'",
+                           "free/wing_pitch is missing",
+                           "time/steps_per_flap = 2.5",
+                           "time/flaps = 0",
+                           "time/foo is not a known key",
+                           "watchdog_s is given twice",
+                           "extra is not a known key",
+                           "foo:=1 is not a known override"}) {
+    expectHas(text, part);
+  }
+}
+
+TEST_F(CaseTest, FilesAndNames) {
+  expectHas(faults("nope"), "one of climb, climb_fwuav, hinge, plate_re100, tethered_fwuav");
+  expectHas(faults("/nonexistent/case.yaml"), "/nonexistent/case.yaml does not exist");
+  expectHas(faults(write("syntax.yaml", "a: [1\n")), "is not YAML");
+  expectHas(faults(write("list.yaml", "[1, 2]\n")), "holds no keys");
+  expectHas(faultsWith("climb", "preset: monarch_paper", "preset: bee"), "insect/preset = 'bee'");
+  expectHas(faultsWith("climb", "series: monarch", "series: bee"),
+            "bee_kinematics.yaml does not exist; there are monarch");
+  expectHas(faultsWith("hinge", "whitney_wood_wing.csv", "absent.csv"),
+            "absent.csv: cannot be read");
+  EXPECT_EQ(faultsWith("hinge", "mass: 6.0e-7", "mass: 7.0e-7"), "");
+}
+
+TEST_F(CaseTest, NonPhysicalValues) {
+  expectHas(faultsWith("hinge", "mass: 6.0e-7", "mass: -6.0e-7"), "insect/wing/mass = -6e-07 kg");
+  expectHas(faultsWith("hinge", "mass: 6.0e-7", "mass: 0"),
+            "insect/wing/mass = 0 kg: must be > 0 kg when free/wing_pitch is true");
+  expectHas(faultsWith("hinge", "kappa: 9.0e-6", "kappa: -1"), "insect/wing/kappa = -1 N m/rad");
+  expectHas(faultsWith("hinge", "kappa: 9.0e-6", "kappa: nan"),
+            "insect/wing/kappa = nan N m/rad: must be a finite number");
+  expectHas(faultsWith("hinge", "  x: false", "  x: true"), "free/x = true: must be false");
+  expectHas(faultsWith("plate_re100", "span: 2", "span: 0"), "insect/wing/planform/span = 0 m");
+  expectHas(faultsWith("plate_re100", "chord: 1", "chord: .nan"), "insect/wing/planform/chord");
+  expectHas(faultsWith("plate_re100", "dt: 0.02\n  duration: 10", "steps_per_flap: 10\n  flaps: 1"),
+            "this motion has no flapping period");
+  expectHas(faultsWith("plate_re100", "dt: 0.02", "dt: 0"), "time/dt = 0 s: must be > 0");
+  expectHas(
+      faultsWith("plate_re100", "phi_deg: 0", "phi_deg: {A0: 0, AN: [1], BN: [0], multiple: 1}"),
+      "motion/phi_deg/AN: harmonics need motion/frequency > 0");
+  expectHas(faultsWith("hinge", "BN: [0]", "BN: []"), "motion/phi_deg/BN has 0 values");
+  expectHas(faultsWith("climb", "velocity: [1.3, 0, -0.562]\n  theta_B",
+                       "velocity: [1.3, 0.1, -0.562]\n  theta_B"),
+            "initial/velocity[1] = 0.1: this coordinate is not free");
+  expectHas(faultsWith("hinge", "free:", "initial: {theta_B: 0.1}\nfree:"),
+            "initial/theta_B = 0.1: free/pitch is false");
+}
+
+TEST_F(CaseTest, CourantEstimateRefusesTooLargeSteps) {
+  // Plate: 1 m/s, cell 1/16 m, limit 3: dt up to 0.1875 s.
+  EXPECT_EQ(faultsWith("plate_re100", "dt: 0.02", "dt: 0.187"), "");
+  const std::string text = faultsWith("plate_re100", "dt: 0.02", "dt: 0.2");
+  expectHas(text, "Courant number of 3.2");
+  expectHas(text, "grid/courant_limit = 3; take dt <= 0.1875 s");
+  expectHas(faults("climb", {{"steps_per_flap", "20"}}), "take steps_per_flap >= ");
+  EXPECT_EQ(faults("climb", {{"steps_per_flap", "20"}, {"fluid", "quasi_steady"}}), "");
+}
+
+TEST_F(CaseTest, GridThatCannotHoldTheWingIsRefused) {
+  EXPECT_NE(faultsWith("plate_re100", "level: preview", "level: preview\n  cells_per_chord: 1"),
+            "");
+  expectHas(faultsWith("plate_re100", "level: preview", "level: custom"),
+            "grid/cells_per_chord is missing");
+}
+
+TEST_F(CaseTest, MotionTables) {
+  const std::string table = "motion: {type: table, kind: wing, frequency: 0, file: m.csv}\n";
+  const std::string path = write("plate.yaml", std::string(kPlate) + table);
+  expectHas(faults(path), "m.csv: cannot be read");
+  write("m.csv", wingRows(51, 0.01));
+  expectHas(faults(path), "the table reaches from 0 to 0.5 s: must cover the run from 0 to 1 s");
+  write("m.csv", wingRows(101, 0.01, 20));
+  expectHas(faults(path), "m.csv: row 21, column t");
+  write("m.csv", "t,x,y,z,qw,qx,qy\n0,0,0,0,1,0,0\n");
+  expectHas(faults(path), "column 'qz' is missing");
+  write("m.csv", wingRows(101, 0.01));
+  EXPECT_EQ(faults(path), "");
+  std::string tilted = std::string(kPlate) + table;
+  tilted.replace(tilted.find("beta: 0"), 7, "beta: 1");
+  expectHas(faults(write("tilted.yaml", tilted)),
+            "insect/beta = 1 rad: must be 0 with motion/kind wing");
+  const std::string butterfly = R"(
+name: carried
+insect: {preset: monarch_fwuav}
+fluid: {solver: quasi_steady}
+motion: {type: table, kind: wing, frequency: 0, file: m.csv}
+free: {x: false, z: false, pitch: false, wing_pitch: false}
+time: {dt: 0.001, duration: 0.1}
+)";
+  expectHas(faults(write("carried.yaml", butterfly)), "motion/kind = 'wing': must be body");
+}
+
+}  // namespace
+}  // namespace monarch_flight
