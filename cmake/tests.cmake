@@ -11,3 +11,14 @@ foreach(source ${core_tests})
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 300 ENVIRONMENT "OPENBLAS_NUM_THREADS=1")
 endforeach()
+
+# The flow solver on 1 to 4 processes.
+add_executable(fluid_parallel_test test/mpi/fluid_parallel_test.cpp)
+target_link_libraries(fluid_parallel_test PRIVATE monarch_fluid GTest::gtest)
+target_include_directories(fluid_parallel_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+foreach(ranks 1 2 3 4)
+  add_test(NAME fluid_parallel_${ranks}
+    COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:fluid_parallel_test>)
+  set_tests_properties(fluid_parallel_${ranks} PROPERTIES TIMEOUT 300
+    ENVIRONMENT "OPENBLAS_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_mpi_yield_when_idle=1")
+endforeach()

@@ -27,9 +27,10 @@ struct Aligned64 {
 };
 using Array = std::vector<double, Aligned64<double>>;
 
-/// Common storage layout of all staggered fields: x fastest, one layer of ghosts, rows padded so that
-/// i = 0 is aligned. The face (i, j, k) of a component is the lower face of the cell (i, j, k).
-/// Indices are those of the whole grid; a process stores the planes [k0 - 1, k1 + 1] of its slab.
+/// Common storage layout of all staggered fields: x fastest, one layer of ghosts, rows padded so
+/// that i = 0 is aligned. The face (i, j, k) of a component is the lower face of the cell (i, j,
+/// k). Indices are those of the whole grid; a process stores the planes [k0 - 1, k1 + 1] of its
+/// slab.
 struct Layout {
   int nx, ny, nz;         ///< cells of the whole grid
   int k0, k1;             ///< planes of cells owned: [k0, k1)
@@ -42,9 +43,7 @@ struct Layout {
         k1(slab.k1()),
         sy((nx + 9 + 7) / 8 * 8),
         sz(sy * (ny + 3)) {}
-  std::ptrdiff_t at(int i, int j, int k) const {
-    return (k - k0 + 1) * sz + (j + 1) * sy + i + 8;
-  }
+  std::ptrdiff_t at(int i, int j, int k) const { return (k - k0 + 1) * sz + (j + 1) * sy + i + 8; }
   std::ptrdiff_t plane(int k) const { return (k - k0 + 1) * sz; }  ///< its first element
   std::size_t size() const { return static_cast<std::size_t>(sz) * (k1 - k0 + 3); }
   std::ptrdiff_t stride(int direction) const {

@@ -56,7 +56,8 @@ Matrix6d NavierStokes::computeAddedMass() {
     netOutflow(grid_, layout_, v_star_, air_.rho, phi());
     pressure_.solve(phi());
     Loads loads;
-    pressureLoads(grid_, layout_, WingPressure(grid_, layout_, nullptr, phi()), air_.rho, wall, loads);
+    pressureLoads(grid_, layout_, WingPressure(grid_, layout_, nullptr, phi()), air_.rho, wall,
+                  loads);
     sumLoads(slab_, loads);
     m.col(column) << -loads.force_pressure, -loads.moment_pressure;
   }
@@ -94,7 +95,8 @@ void NavierStokes::potentialStart() {
 
 void NavierStokes::fillPhiHalo() {
   const int plane = layout_.nx * layout_.ny;
-  if (!slab_.atTop()) slab_.sendUp(phi() + static_cast<std::ptrdiff_t>(slab_.planes() - 1) * plane, plane);
+  if (!slab_.atTop())
+    slab_.sendUp(phi() + static_cast<std::ptrdiff_t>(slab_.planes() - 1) * plane, plane);
   if (!slab_.atBottom()) slab_.receiveFromBelow(phi() - plane, plane);
 }
 
@@ -121,7 +123,8 @@ void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& f
 void NavierStokes::convectingField(const GridVelocity& g) {
   const double extrapolation = step_.second_order ? 1.0 : 0.0;
   for (int c = 0; c < 3; ++c) {
-    for (int k = std::max(0, layout_.k0 - 1); k <= std::min(layout_.k1, layout_.nz - (c != 2)); ++k) {
+    for (int k = std::max(0, layout_.k0 - 1); k <= std::min(layout_.k1, layout_.nz - (c != 2));
+         ++k) {
       const double z = c == 2 ? grid_.z.face[k] : grid_.z.centre[k];
       for (int j = 0; j < layout_.ny + (c == 1); ++j) {
         const double y = c == 1 ? grid_.y.face[j] : grid_.y.centre[j];
@@ -209,8 +212,8 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   Loads loads;
   pressureLoads(grid_, layout_, WingPressure(grid_, layout_, p_.data(), phi()), air_.rho,
                 acceleration_, loads);
-  frictionLoads(grid_, layout_, momentum_, v_star_, phi(), step_.a / air_.rho, next_.wall,
-                air_.mu, loads);
+  frictionLoads(grid_, layout_, momentum_, v_star_, phi(), step_.a / air_.rho, next_.wall, air_.mu,
+                loads);
   sumLoads(slab_, loads);
   if (!loads.finite()) throw NumericalError("Navier-Stokes: the loads are not finite");
   evaluated_ = true;

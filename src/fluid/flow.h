@@ -76,7 +76,7 @@ class NavierStokes : public FluidModel {
   // of the step being computed
   MomentumStep step_{};
   Velocity convecting_, v_star_;
-  Array phi_;                 ///< one plane of the process below, then this process's cells
+  Array phi_;  ///< one plane of the process below, then this process's cells
   std::ptrdiff_t phi_start_;
   Eigen::Matrix3d predicted_frame_;
   Level next_;

@@ -61,7 +61,8 @@ void exchangeLevel(Stream& s, L& level) {
 template <class T>
 std::vector<T> gathered(const Slab& slab, const std::vector<T>& mine) {
   const char* begin = reinterpret_cast<const char*>(mine.data());
-  const std::vector<char> all = slab.gather(std::vector<char>(begin, begin + mine.size() * sizeof(T)));
+  const std::vector<char> all =
+      slab.gather(std::vector<char>(begin, begin + mine.size() * sizeof(T)));
   std::vector<T> items(all.size() / sizeof(T));
   if (!all.empty()) std::memcpy(static_cast<void*>(items.data()), all.data(), all.size());
   return items;
@@ -69,7 +70,8 @@ std::vector<T> gathered(const Slab& slab, const std::vector<T>& mine) {
 
 }  // namespace
 
-// The state is a head (number of processes, bytes of each) and the parts of the processes, bottom first.
+// The state is a head (number of processes, bytes of each) and the parts of the processes, bottom
+// first.
 std::vector<char> NavierStokes::save() const {
   std::vector<char> mine;
   Writer w(mine);
@@ -97,8 +99,8 @@ void NavierStokes::restore(const std::vector<char>& bytes) {
   int ranks = 0;
   r(ranks);
   if (ranks != slab_.ranks()) {
-    throw std::invalid_argument("fluid state: made by " + std::to_string(ranks) + " processes, not by " +
-                                std::to_string(slab_.ranks()));
+    throw std::invalid_argument("fluid state: made by " + std::to_string(ranks) +
+                                " processes, not by " + std::to_string(slab_.ranks()));
   }
   std::size_t mine = 0, total = 0;
   for (int q = 0; q < ranks; ++q) {
@@ -134,8 +136,7 @@ SurfacePressure NavierStokes::surfacePressure() const {
       if (!grid_.isWing(i, j)) continue;
       const double x = grid_.x.centre[i], y = grid_.y.centre[j], a_n = acceleration_.at(2, x, y);
       facets.push_back({float(x), float(y), float(grid_.x.width[i]), float(grid_.y.width[j]),
-                          float(p.below(i, j, air_.rho, a_n)),
-                          float(p.above(i, j, air_.rho, a_n))});
+                        float(p.below(i, j, air_.rho, a_n)), float(p.above(i, j, air_.rho, a_n))});
     }
   }
   return {gathered(slab_, facets)};

@@ -123,7 +123,8 @@ void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Veloc
 void Momentum::finish(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change,
                       Velocity& v_star) {
   if (slab_.owns(grid_.k_wing)) {
-    std::copy(wing_plane_.begin(), wing_plane_.end(), delta_.c[2].data() + layout_.plane(grid_.k_wing));
+    std::copy(wing_plane_.begin(), wing_plane_.end(),
+              delta_.c[2].data() + layout_.plane(grid_.k_wing));
     sweepX(c, 2, grid_.k_wing, &wall_change);
     sweepY(c, 2, grid_.k_wing, &wall_change);
   }
@@ -284,9 +285,9 @@ void Momentum::sweepY(const Velocity& c, int component, int k, const WallVelocit
 
 struct Momentum::Lines {
   int component;
-  const double* side;          // right sides (layout of the fields)
-  double* x;                   // solution in place of the reduced right sides (layout of the fields)
-  double* gamma;               // off-diagonal left after elimination, of the point (0, j, 0)
+  const double* side;  // right sides (layout of the fields)
+  double* x;           // solution in place of the reduced right sides (layout of the fields)
+  double* gamma;       // off-diagonal left after elimination, of the point (0, j, 0)
   std::ptrdiff_t gamma_plane;  // stride of k in gamma
   std::ptrdiff_t gamma_row;    // stride of j in gamma
   double* gammaAt(int j, int k) const { return gamma + j * gamma_row + k * gamma_plane; }
@@ -308,7 +309,8 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
   double* __restrict g = lines.gammaAt(j, k);
   const double* __restrict dp = is_end ? zero_.data() : lines.x + row - towards * layout_.sz;
   const double* __restrict gp = is_end ? zero_.data() : lines.gammaAt(j, k - towards);
-  if (component != 2 && (k == kw || k == kw - 1)) {  // sees the wall at half a cell where it is wing
+  if (component != 2 &&
+      (k == kw || k == kw - 1)) {  // sees the wall at half a cell where it is wing
     const Direction& m = metric_[component][2];
     const double wall = 2 * step_.a * step_.nu / (grid_.z.width[k] * grid_.z.width[k]);
     const double link = step_.a * step_.nu * m.inverse_distance[kw] * m.inverse_width[k];
@@ -342,8 +344,8 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
 }
 
 /// Half 0: the planes below the wing's, upwards; half 1: those above, downwards.
-void Momentum::eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j,
-                         int half) {
+void Momentum::eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
+                         int j, int half) {
   const int k0 = first(lines.component, 2), k1 = last(lines.component, 2), kw = grid_.k_wing;
   if (half == 0) {
     for (int k = k0; k <= std::min(k1, kw - 1); ++k) eliminateRow(c, wall_change, lines, j, k, +1);
@@ -383,8 +385,9 @@ void Momentum::substitute(const Lines& lines, int j, int half) const {
 void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int component,
                       Velocity& v_star) {
   const int j0 = first(component, 1), j1 = last(component, 1), kw = grid_.k_wing;
-  Lines lines{component, delta_.c[component].data(), v_star.c[component].data(), gamma_.data(),
-              layout_.sy, 0};
+  Lines lines{
+      component, delta_.c[component].data(), v_star.c[component].data(), gamma_.data(), layout_.sy,
+      0};
   if (slab_.ranks() == 1) {
     for (int j = j0; j <= j1; ++j) {
       eliminate(c, wall_change, lines, j, 0);
@@ -395,12 +398,13 @@ void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int co
     }
     return;
   }
-  // The same with the lines cut by slabs: planes pass from process to process towards the wing and back.
+  // The same with the lines cut by slabs: planes pass from process to process towards the wing and
+  // back.
   lines.gamma = gamma_field_.data() + layout_.at(0, 0, 0);
   lines.gamma_plane = layout_.sz;
   lines.gamma_row = layout_.sy;
   const int k0 = layout_.k0, k1 = layout_.k1, n = static_cast<int>(layout_.sz);
-  const bool has_below = k0 < kw, has_above = k1 > kw;
+  const bool has_below = k0<kw, has_above = k1> kw;
   auto x = [&](int k) { return lines.x + layout_.plane(k); };
   auto gamma = [&](int k) { return gamma_field_.data() + layout_.plane(k); };
   if (has_below) {

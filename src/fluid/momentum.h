@@ -58,7 +58,9 @@ class Momentum {
     const int whole = component == direction ? 1 : 0;
     return direction == 2 ? std::max(whole, layout_.k0) : whole;
   }
-  int last(int, int direction) const { return (direction == 2 ? layout_.k1 : layout_.n(direction)) - 1; }
+  int last(int, int direction) const {
+    return (direction == 2 ? layout_.k1 : layout_.n(direction)) - 1;
+  }
   double position(int component, int direction, int index) const;
 
   void coefficients(const Velocity& c, int component, int direction, int j, int k, Row row) const;
@@ -67,12 +69,14 @@ class Momentum {
   void dissipate(const Velocity& vn, const Velocity& c, int component, int direction, int j, int k);
   void sweepX(const Velocity& c, int component, int k, const WallVelocity* wall_change);
   void sweepY(const Velocity& c, int component, int k, const WallVelocity* wall_change);
-  /// The z factor: eliminated from both ends to the wing's plane, solved there, substituted outwards.
+  /// The z factor: eliminated from both ends to the wing's plane, solved there, substituted
+  /// outwards.
   void sweepZ(const Velocity& c, const WallVelocity& wall_change, int component, Velocity& v_star);
   struct Lines;  ///< the factors and right sides of the lines of one component
-  void eliminateRow(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j, int k,
-                    int towards);
-  void eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j, int half);
+  void eliminateRow(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j,
+                    int k, int towards);
+  void eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j,
+                 int half);
   void join(const Lines& lines, int j) const;
   void substitute(const Lines& lines, int j, int half) const;
   void fixWingFaces(const WallVelocity& wall_change, int j, double* lower, double* upper,

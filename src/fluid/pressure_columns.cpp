@@ -35,12 +35,18 @@ Eigen::ArrayXd allValues(const AxisModes& modes) {
 
 PressureColumns::PressureColumns(const Grid& grid, const Slab& slab, const AxisModes& x,
                                  const AxisModes& y, std::vector<SpectrumBlock> blocks)
-    : slab_(slab), nx_(x.n()), ny_(y.n()), nz_(grid.z.n()), k_wing_(grid.k_wing), blocks_(std::move(blocks)) {
+    : slab_(slab),
+      nx_(x.n()),
+      ny_(y.n()),
+      nz_(grid.z.n()),
+      k_wing_(grid.k_wing),
+      blocks_(std::move(blocks)) {
   width_ = Eigen::Map<const Eigen::ArrayXd>(grid.z.width.data(), nz_);
   link_ = Eigen::Map<const Eigen::ArrayXd>(grid.z.gap.data(), nz_ + 1).inverse();
   if (!grid.open) link_[0] = link_[nz_] = 0.0;
   const Eigen::Index plane = static_cast<Eigen::Index>(nx_) * ny_;
-  for (Eigen::ArrayXd* a : {&below_, &cross_, &above_, &complement_, &r_d_, &r_u_, &passing_}) a->setZero(plane);
+  for (Eigen::ArrayXd* a : {&below_, &cross_, &above_, &complement_, &r_d_, &r_u_, &passing_})
+    a->setZero(plane);
   reciprocal_.setZero(plane * slab_.planes());
   const Eigen::ArrayXd values_x = allValues(x), values_y = allValues(y);
   for (const SpectrumBlock& q : blocks_) {
@@ -101,8 +107,9 @@ void PressureColumns::takePlane(const double* spectrum, int k, double* plane) co
   }
 }
 
-/// Half 0: the planes below the wing, upwards; half 1: those above, downwards. What a process passes on
-/// is its last row, to be added to the next process's first one with the link between them.
+/// Half 0: the planes below the wing, upwards; half 1: those above, downwards. What a process
+/// passes on is its last row, to be added to the next process's first one with the link between
+/// them.
 void PressureColumns::eliminateHalf(double* spectrum, int half) const {
   const int towards = half == 0 ? 1 : -1;
   const int first = half == 0 ? slab_.k0() : slab_.k1() - 1;
@@ -112,7 +119,8 @@ void PressureColumns::eliminateHalf(double* spectrum, int half) const {
   const bool continues = half == 0 ? !slab_.atBottom() : !slab_.atTop();
   const bool passes_on = last != (half == 0 ? k_wing_ - 1 : k_wing_);
   if (continues) {
-    half == 0 ? slab_.receiveFromBelow(passing_.data(), plane) : slab_.receiveFromAbove(passing_.data(), plane);
+    half == 0 ? slab_.receiveFromBelow(passing_.data(), plane)
+              : slab_.receiveFromAbove(passing_.data(), plane);
   }
   for (const SpectrumBlock& q : blocks_) {
     for (int b = 0; b < q.my; ++b) {
@@ -122,7 +130,8 @@ void PressureColumns::eliminateHalf(double* spectrum, int half) const {
       if (continues) {
         for (int a = 0; a < q.mx; ++a) r[a] += passing[a];
       }
-      for (int k = first; k != last; k += towards, r += towards * q.mx, reciprocal += towards * q.mx) {
+      for (int k = first; k != last;
+           k += towards, r += towards * q.mx, reciprocal += towards * q.mx) {
         eliminateRow(r, reciprocal, link_[half == 0 ? k + 1 : k], r + towards * q.mx, q.mx);
       }
       if (passes_on) {
@@ -151,7 +160,8 @@ void PressureColumns::meet(const double* spectrum) const {
 }
 
 void PressureColumns::jump(double* jump) const {
-  Eigen::Map<Eigen::ArrayXd>(jump, r_d_.size()) = (below_ - cross_) * r_d_ - (above_ - cross_) * r_u_;
+  Eigen::Map<Eigen::ArrayXd>(jump, r_d_.size()) =
+      (below_ - cross_) * r_d_ - (above_ - cross_) * r_u_;
 }
 
 void PressureColumns::addDipole(const double* source) const {
@@ -166,11 +176,13 @@ void PressureColumns::solveAtWing(double* spectrum) const {
       const std::ptrdiff_t at = planeIndex(q, b);
       if (slab_.owns(k_wing_ - 1)) {
         double* p = spectrum + row(q, b, k_wing_ - 1);
-        for (int a = 0; a < q.mx; ++a) p[a] = below_[at + a] * r_d_[at + a] + cross_[at + a] * r_u_[at + a];
+        for (int a = 0; a < q.mx; ++a)
+          p[a] = below_[at + a] * r_d_[at + a] + cross_[at + a] * r_u_[at + a];
       }
       if (slab_.owns(k_wing_)) {
         double* p = spectrum + row(q, b, k_wing_);
-        for (int a = 0; a < q.mx; ++a) p[a] = cross_[at + a] * r_d_[at + a] + above_[at + a] * r_u_[at + a];
+        for (int a = 0; a < q.mx; ++a)
+          p[a] = cross_[at + a] * r_d_[at + a] + above_[at + a] * r_u_[at + a];
       }
     }
   }
@@ -184,7 +196,8 @@ void PressureColumns::substituteHalf(double* spectrum, int half) const {
   const int plane = nx_ * ny_;
   const bool at_wing = nearest == (half == 0 ? k_wing_ - 1 : k_wing_);
   if (!at_wing) {
-    half == 0 ? slab_.receiveFromAbove(passing_.data(), plane) : slab_.receiveFromBelow(passing_.data(), plane);
+    half == 0 ? slab_.receiveFromAbove(passing_.data(), plane)
+              : slab_.receiveFromBelow(passing_.data(), plane);
   }
   for (const SpectrumBlock& q : blocks_) {
     for (int b = 0; b < q.my; ++b) {

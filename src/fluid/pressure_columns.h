@@ -14,8 +14,9 @@ namespace monarch_flight {
 /// l = 1 / gap[k_wing]. e_d, e_u >= 0 are what the half columns conduct to elsewhere; they are
 /// built without subtraction. With closed outer faces the constant mode has e_d = e_u = 0: its
 /// system is singular, r_d + r_u = 0 after removeMean, and the solution with p_d + p_u = 0 is
-/// taken. A spectrum holds the planes of this process's slab; reduced rows pass from process to process
-/// towards the wing's plane and solved ones back. All arrays over modes ("mode planes") are nx x ny: all modes of x by all modes of y.
+/// taken. A spectrum holds the planes of this process's slab; reduced rows pass from process to
+/// process towards the wing's plane and solved ones back. All arrays over modes ("mode planes") are
+/// nx x ny: all modes of x by all modes of y.
 class PressureColumns {
  public:
   PressureColumns(const Grid& grid, const Slab& slab, const AxisModes& x, const AxisModes& y,

@@ -70,8 +70,8 @@ void subtractGradient(const Grid& grid, const Layout& l, const double* phi, doub
 
 namespace {
 
-/// Calls f(outer point, inner point) for the outer faces or ghosts of component c, direction d, on the
-/// planes of this process and on its neighbouring planes.
+/// Calls f(outer point, inner point) for the outer faces or ghosts of component c, direction d, on
+/// the planes of this process and on its neighbouring planes.
 template <class F>
 void forOuter(const Layout& l, int c, int d, F f) {
   const int lo[3] = {-1, -1, l.k0 - 1}, hi[3] = {l.nx, l.ny, l.k1};

@@ -13,8 +13,8 @@ void netOutflow(const Grid& grid, const Layout& l, const Velocity& v, double sca
 /// In front of phi stands the plane k0 - 1 of the process below (unused at the bottom).
 void subtractGradient(const Grid& grid, const Layout& l, const double* phi, double scale,
                       Velocity& v);
-/// Outer faces and ghosts of this process's planes: the far field's uniform velocity (rest), or no change along the normal
-/// (open).
+/// Outer faces and ghosts of this process's planes: the far field's uniform velocity (rest), or no
+/// change along the normal (open).
 void fillOuter(const Grid& grid, const Layout& l, const Eigen::Vector3d& far, Velocity& v);
 /// The wing's own faces take the wall's normal velocity.
 void fillWing(const Grid& grid, const Layout& l, const WallVelocity& wall, Velocity& v);

@@ -5,16 +5,16 @@
 
 namespace monarch_flight {
 
-/// The part of the grid that one process owns: the planes [k0, k1) of cells, and of z-faces likewise
-/// (the last process owns the outer face nz too). One process owns everything and never calls MPI.
-/// Every operation is collective over the processes that it names and repeatable bit for bit at a fixed
-/// number of processes.
+/// The part of the grid that one process owns: the planes [k0, k1) of cells, and of z-faces
+/// likewise (the last process owns the outer face nz too). One process owns everything and never
+/// calls MPI. Every operation is collective over the processes that it names and repeatable bit for
+/// bit at a fixed number of processes.
 class Slab {
  public:
   /// All of `planes` on one process.
   explicit Slab(int planes) : k0_(0), k1_(planes) {}
-  /// An even share of `planes` for this process of `comm`. Throws InputError when a process would own
-  /// fewer than two planes.
+  /// An even share of `planes` for this process of `comm`. Throws InputError when a process would
+  /// own fewer than two planes.
   Slab(MPI_Comm comm, int planes);
 
   int k0() const { return k0_; }
@@ -31,9 +31,14 @@ class Slab {
   void receiveFromAbove(double* data, int n) const { receive(data, n, rank_ + 1); }
   void receiveFromBelow(double* data, int n) const { receive(data, n, rank_ - 1); }
   /// `mine` to the process above (below), its data into `other`.
-  void exchangeAbove(const double* mine, double* other, int n) const { exchange(mine, other, n, rank_ + 1); }
-  void exchangeBelow(const double* mine, double* other, int n) const { exchange(mine, other, n, rank_ - 1); }
-  /// Fills the two neighbouring planes of a field: `at(k)` is the first of the `n` doubles of plane k.
+  void exchangeAbove(const double* mine, double* other, int n) const {
+    exchange(mine, other, n, rank_ + 1);
+  }
+  void exchangeBelow(const double* mine, double* other, int n) const {
+    exchange(mine, other, n, rank_ - 1);
+  }
+  /// Fills the two neighbouring planes of a field: `at(k)` is the first of the `n` doubles of plane
+  /// k.
   template <class At>
   void fillHalo(At at, int n) const {
     if (ranks_ == 1) return;

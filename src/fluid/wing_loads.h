@@ -25,7 +25,8 @@ class WingPressure {
  private:
   double cell(int i, int j, int k) const {
     const double base = p_ ? p_[l_.at(i, j, k)] : 0.0;
-    return phi_ ? base + phi_[(static_cast<std::ptrdiff_t>(k - l_.k0) * l_.ny + j) * l_.nx + i] : base;
+    return phi_ ? base + phi_[(static_cast<std::ptrdiff_t>(k - l_.k0) * l_.ny + j) * l_.nx + i]
+                : base;
   }
   const Grid& grid_;
   const Layout& l_;
@@ -33,7 +34,8 @@ class WingPressure {
   const double* phi_;
 };
 
-/// The loads of the sides of the wing that touch cells of this process; to be summed over processes.
+/// The loads of the sides of the wing that touch cells of this process; to be summed over
+/// processes.
 
 /// Force and moment (about the origin) of the pressure jump.
 void pressureLoads(const Grid& grid, const Layout& l, const WingPressure& p, double rho,

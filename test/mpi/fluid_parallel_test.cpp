@@ -1,0 +1,99 @@
+// The flow on several processes against the flow on one. Run by mpirun with 1 to 4 processes.
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include "fluid/flow.h"
+#include "monarch_flight/math/rotation.h"
+
+namespace monarch_flight {
+namespace {
+
+WingMotion flapping(double t) {
+  const double w = 2 * M_PI, phi = 0.5 * std::sin(w * t), rate = 0.5 * w * std::cos(w * t);
+  WingMotion m;
+  m.R_IW = rotationX(phi) * rotationY(0.4);
+  m.omega_W = rotationY(0.4).transpose() * Eigen::Vector3d(rate, 0, 0);
+  m.v_W = m.R_IW.transpose() * Eigen::Vector3d(0.5, 0.1, -0.2);
+  return m;
+}
+
+Grid plate(bool open) {
+  GridSettings s = GridSettings::preset("preview");
+  s.cells_per_chord = 6;
+  s.first_cell = 0.08;
+  s.far_field = 3;
+  s.outer = open ? "open" : "rest";
+  return makeGrid(Planform::ellipse(1.0, 2.0, 0.3), s);
+}
+
+Air thinAir() {
+  Air air;
+  air.rho = 1.2;
+  air.mu = 0.012;
+  return air;
+}
+
+std::vector<double> fly(NavierStokes& flow, int steps) {
+  std::vector<double> loads;
+  const double dt = 0.01;
+  flow.start(flapping(0), dt);
+  for (int n = 1; n <= steps; ++n) {
+    flow.evaluate(flapping(n * dt + 0.001));  // a sub-iteration that is not kept
+    const Loads l = flow.evaluate(flapping(n * dt));
+    flow.commit();
+    for (const Eigen::Vector3d& v :
+         {l.force_pressure, l.force_friction, l.moment_pressure, l.moment_friction}) {
+      loads.insert(loads.end(), v.data(), v.data() + 3);
+    }
+  }
+  return loads;
+}
+
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double worst = 0, scale = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    worst = std::max(worst, std::abs(a[i] - b[i]));
+    scale = std::max(scale, std::abs(b[i]));
+  }
+  return worst / scale;
+}
+
+class Processes : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Processes, GiveTheSameLoads) {
+  NavierStokes alone(plate(GetParam()), thinAir(), 1.0, 10.0);
+  NavierStokes together(plate(GetParam()), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
+  EXPECT_LT((alone.addedMass() - together.addedMass()).norm(), 1e-12 * alone.addedMass().norm());
+  const std::vector<double> one = fly(alone, 8), all = fly(together, 8);
+  EXPECT_LT(difference(all, one), 1e-10);
+  EXPECT_NEAR(together.report().courant, alone.report().courant, 1e-10);
+  EXPECT_EQ(fly(together, 8), all);  // repeatable bit for bit
+}
+
+TEST_P(Processes, SaveAndRestoreBitwise) {
+  NavierStokes flow(plate(GetParam()), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
+  fly(flow, 3);
+  std::vector<char> state = flow.save();
+  long size = static_cast<long>(state.size());
+  MPI_Bcast(&size, 1, MPI_LONG, 0, MPI_COMM_WORLD);
+  state.resize(size);
+  MPI_Bcast(state.data(), static_cast<int>(size), MPI_CHAR, 0, MPI_COMM_WORLD);
+  const Loads first = flow.evaluate(flapping(0.04));
+  flow.commit();
+  flow.restore(state);
+  EXPECT_EQ(first.force(), flow.evaluate(flapping(0.04)).force());
+}
+
+INSTANTIATE_TEST_SUITE_P(Outer, Processes, ::testing::Values(false, true),
+                         [](const auto& info) { return info.param ? "open" : "rest"; });
+
+}  // namespace
+}  // namespace monarch_flight
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  ::testing::InitGoogleTest(&argc, argv);
+  const int failed = RUN_ALL_TESTS();
+  MPI_Finalize();
+  return failed;
+}
