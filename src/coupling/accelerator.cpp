@@ -14,15 +14,16 @@ AitkenRelaxation::AitkenRelaxation(double omega_initial, double omega_min, doubl
     : omega_initial_(omega_initial),
       omega_min_(omega_min),
       omega_max_(omega_max),
-      omega_(omega_initial) {}
+      omega_(omega_initial),
+      previous_(CouplingVector::Zero()) {}
 
 void AitkenRelaxation::reset() {
   omega_ = omega_initial_;
-  previous_.resize(0);
+  has_previous_ = false;
 }
 
 double AitkenRelaxation::advance(CouplingVector& d, const CouplingVector& residual) {
-  if (previous_.size() == residual.size()) {
+  if (has_previous_) {
     const CouplingVector change = residual - previous_;
     const double factor = -omega_ * previous_.dot(change) / change.squaredNorm();
     // 0/0 where the residual did not change: nothing learnt, the factor stays.
@@ -31,6 +32,7 @@ double AitkenRelaxation::advance(CouplingVector& d, const CouplingVector& residu
     }
   }
   previous_ = residual;
+  has_previous_ = true;
   d += omega_ * residual;
   return omega_;
 }

@@ -42,7 +42,7 @@ Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& sett
   for (const std::string& fault : settings.problems()) faults.push_back(fault);
   if (!faults.empty()) throw InputError(faults);
   const double unit = 1.0 / (model.newmark.beta * model.newmark.dt * model.newmark.dt);
-  scales_ = {settings.length_scale * unit, settings.length_scale * unit, unit, unit};
+  scales_ << settings.length_scale * unit, settings.length_scale * unit, unit, unit;
 }
 
 CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, const bool& stop) {
@@ -88,7 +88,8 @@ void Coordinator::start(const std::vector<StepSink*>& sinks) {
   }
   levels_ = 0;
   force_scale_ = moment_scale_ = 0.0;
-  increment_scales_.fill(0.0);
+  increment_scales_.setZero();
+  history_.fill(CouplingVector::Zero());
   out.interface = request.interface;
   finish(Loads(), out);
   out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
@@ -132,7 +133,7 @@ bool Coordinator::converge(const CouplingSettings& settings, const Interface& pr
     IterationRecord& record = out.iterations.back();
     // 3. residual; the first sub-iteration has no loads to compare with
     const CouplingVector residual = increments(last.answer) - d;
-    record.residual = named(residual);
+    std::copy_n(residual.data(), 4, record.residual.begin());
     record.load_residual =
         k == 0 ? 1.0 : std::max(loadChange(last.loads, previous), imbalance(residual, d));
     previous = last.loads;

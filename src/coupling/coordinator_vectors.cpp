@@ -13,22 +13,16 @@ constexpr double kScaleDecay = 0.999;     // of the running scales, per step
 constexpr std::size_t kHistoryShown = 8;  // residuals in the diagnosis of a failure
 constexpr const char* kNames[4] = {"x", "z", "theta_B", "theta_R"};
 
-/// The accelerations of x, z, theta_B, theta_R.
-std::array<double, 4> accelerations(const Interface& interface) {
-  return {interface.body.a.x(), interface.body.a.z(), interface.body.pitch.qdd,
-          interface.theta_R.qdd};
-}
-
 double relative(double change, double scale) { return change == 0.0 ? 0.0 : change / scale; }
 
 }  // namespace
 
 CouplingVector Coordinator::increments(const Interface& interface) const {
-  const std::array<double, 4> a = accelerations(interface);
-  CouplingVector d(model_.free.count());
-  Eigen::Index next = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (free_[i]) d(next++) = a[i] / scales_[i];
+  const CouplingVector a(interface.body.a.x(), interface.body.a.z(), interface.body.pitch.qdd,
+                         interface.theta_R.qdd);
+  CouplingVector d = CouplingVector::Zero();
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    if (free_[static_cast<std::size_t>(i)]) d(i) = a(i) / scales_(i);
   }
   return d;
 }
@@ -45,21 +39,12 @@ CouplingVector Coordinator::predictedIncrements() const {
 }
 
 Interface Coordinator::guess(const CouplingVector& increments, const Interface& prescribed) const {
-  const std::array<double, 4> d = named(increments);
-  const Eigen::Vector3d body(d[0] * scales_[0], d[1] * scales_[1], d[2] * scales_[2]);
+  const CouplingVector a = increments.cwiseProduct(scales_);
   Interface next = prescribed;
-  next.body = advancedBody(committed_.body, prescribed.body, model_.free, model_.newmark, body);
-  if (free_[3]) next.theta_R = model_.newmark.advance(committed_.theta_R, d[3] * scales_[3]);
+  next.body =
+      advancedBody(committed_.body, prescribed.body, model_.free, model_.newmark, a.head<3>());
+  if (model_.free.wing_pitch) next.theta_R = model_.newmark.advance(committed_.theta_R, a(3));
   return next;
-}
-
-std::array<double, 4> Coordinator::named(const CouplingVector& increments) const {
-  std::array<double, 4> values{};
-  Eigen::Index next = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (free_[i]) values[i] = increments(next++);
-  }
-  return values;
 }
 
 double Coordinator::loadChange(const Loads& loads, const Loads& previous) const {
@@ -71,13 +56,8 @@ double Coordinator::loadChange(const Loads& loads, const Loads& previous) const 
 
 double Coordinator::imbalance(const CouplingVector& residual,
                               const CouplingVector& increments) const {
-  const std::array<double, 4> r = named(residual), d = named(increments);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    largest =
-        std::max(largest, relative(std::abs(r[i]), std::max(increment_scales_[i], std::abs(d[i]))));
-  }
-  return largest;
+  const CouplingVector scales = increment_scales_.cwiseMax(increments.cwiseAbs());
+  return residual.cwiseAbs().cwiseQuotient(scales).maxCoeff();
 }
 
 void Coordinator::updateScales(const Loads& loads) {
@@ -88,10 +68,8 @@ void Coordinator::updateScales(const Loads& loads) {
       std::max({kScaleDecay * force_scale_, loads.force().norm(), wing.m * scales_[0] * noticed});
   moment_scale_ = std::max(
       {kScaleDecay * moment_scale_, loads.moment().norm(), wing.J(1, 1) * scales_[3] * noticed});
-  const std::array<double, 4> d = named(history_[0]);
-  for (std::size_t i = 0; i < 4; ++i) {
-    increment_scales_[i] = std::max({kScaleDecay * increment_scales_[i], std::abs(d[i]), noticed});
-  }
+  increment_scales_ =
+      (kScaleDecay * increment_scales_).cwiseMax(history_[0].cwiseAbs()).cwiseMax(noticed);
   increment_scales_[0] = increment_scales_[1] =
       std::max(increment_scales_[0], increment_scales_[1]);
 }

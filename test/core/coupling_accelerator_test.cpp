@@ -9,9 +9,9 @@ namespace {
 
 /// Iterates d = A d + b from 0 with a strategy; number of evaluations until |r| < tolerance, or
 /// `limit`.
-int evaluations(Accelerator& accelerator, const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
+int evaluations(Accelerator& accelerator, const Eigen::Matrix4d& A, const Eigen::Vector4d& b,
                 double tolerance, int limit, CouplingVector* solution = nullptr) {
-  CouplingVector d = CouplingVector::Zero(b.size());
+  CouplingVector d = CouplingVector::Zero();
   for (int k = 1; k <= limit; ++k) {
     const CouplingVector residual = A * d + b - d;
     if (residual.cwiseAbs().maxCoeff() < tolerance) {
@@ -23,15 +23,21 @@ int evaluations(Accelerator& accelerator, const Eigen::MatrixXd& A, const Eigen:
   return limit;
 }
 
-Eigen::MatrixXd scalar(double value) { return Eigen::MatrixXd::Constant(1, 1, value); }
+/// One coordinate is free, the others are prescribed: their residual is 0.
+Eigen::Matrix4d scalar(double value) {
+  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+  A(0, 0) = value;
+  return A;
+}
+const Eigen::Vector4d kScalarForce = Eigen::Vector4d::UnitX();
 
 TEST(ConstantRelaxation, ContractsAsItsTheorySays) {
   // Error after k steps: (1 + omega (lambda - 1))^k.
   ConstantRelaxation accelerator(0.5);
-  CouplingVector d = CouplingVector::Zero(1);
+  CouplingVector d = CouplingVector::Zero();
   const double lambda = -0.4, b = 1.0, solution = b / (1.0 - lambda);
   for (int k = 1; k <= 10; ++k) {
-    CouplingVector residual(1);
+    CouplingVector residual = CouplingVector::Zero();
     residual(0) = lambda * d(0) + b - d(0);
     EXPECT_EQ(accelerator.advance(d, residual), 0.5);
     EXPECT_NEAR(d(0), solution * (1.0 - std::pow(1.0 + 0.5 * (lambda - 1.0), k)), 1e-15);
@@ -42,8 +48,7 @@ TEST(Aitken, IsExactForAScalarAfterTwoSteps) {
   for (double lambda : {-8.0, -1.6, -0.3, 0.4, 0.9}) {
     AitkenRelaxation accelerator(0.5, 1e-6, 100.0);
     CouplingVector solution;
-    EXPECT_EQ(
-        evaluations(accelerator, scalar(lambda), Eigen::VectorXd::Ones(1), 1e-13, 50, &solution), 3)
+    EXPECT_EQ(evaluations(accelerator, scalar(lambda), kScalarForce, 1e-13, 50, &solution), 3)
         << lambda;
     EXPECT_NEAR(solution(0), 1.0 / (1.0 - lambda), 1e-13);
   }
@@ -53,10 +58,9 @@ TEST(Aitken, ConvergesWhereConstantRelaxationDiverges) {
   // Added mass 10.8 times the structure's: without relaxation the error grows tenfold each time.
   ConstantRelaxation plain(1.0), half(0.5);
   AitkenRelaxation aitken(0.5, 0.05, 1.5);
-  const Eigen::VectorXd b = Eigen::VectorXd::Ones(1);
-  EXPECT_EQ(evaluations(plain, scalar(-10.8), b, 1e-10, 60), 60);
-  EXPECT_EQ(evaluations(half, scalar(-10.8), b, 1e-10, 60), 60);
-  EXPECT_LE(evaluations(aitken, scalar(-10.8), b, 1e-10, 60), 4);
+  EXPECT_EQ(evaluations(plain, scalar(-10.8), kScalarForce, 1e-10, 60), 60);
+  EXPECT_EQ(evaluations(half, scalar(-10.8), kScalarForce, 1e-10, 60), 60);
+  EXPECT_LE(evaluations(aitken, scalar(-10.8), kScalarForce, 1e-10, 60), 4);
 }
 
 TEST(Aitken, ConvergesForSeveralCoordinates) {
@@ -73,7 +77,7 @@ TEST(Aitken, ConvergesForSeveralCoordinates) {
 
 TEST(Aitken, FirstFactorAndResetTakeTheInitialOne) {
   AitkenRelaxation accelerator(0.3, 0.05, 1.5);
-  CouplingVector d = CouplingVector::Zero(1), residual = CouplingVector::Ones(1);
+  CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::UnitX();
   EXPECT_EQ(accelerator.advance(d, residual), 0.3);
   residual(0) = 0.5;
   EXPECT_DOUBLE_EQ(accelerator.advance(d, residual), 0.6);
@@ -82,7 +86,7 @@ TEST(Aitken, FirstFactorAndResetTakeTheInitialOne) {
 }
 
 TEST(Aitken, StaysWithinItsBounds) {
-  CouplingVector d = CouplingVector::Zero(1), residual = CouplingVector::Ones(1);
+  CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::UnitX();
   AitkenRelaxation high(0.5, 0.05, 1.5);
   high.advance(d, residual);
   residual(0) = 0.99;  // would be 50
@@ -101,7 +105,7 @@ TEST(Aitken, StaysWithinItsBounds) {
 
 TEST(Aitken, KeepsItsFactorWhenTheResidualDoesNotChange) {
   AitkenRelaxation accelerator(0.5, 0.05, 1.5);
-  CouplingVector d = CouplingVector::Zero(2), residual = CouplingVector::Ones(2);
+  CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::Ones();
   accelerator.advance(d, residual);
   EXPECT_EQ(accelerator.advance(d, residual), 0.5);
   EXPECT_TRUE(d.allFinite());

@@ -6,8 +6,8 @@
 
 namespace monarch_flight {
 
-/// The free coordinates of the interface, dimensionless; at most four, nothing is allocated.
-using CouplingVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
+/// Of x, z, theta_B, theta_R, dimensionless; 0 where a coordinate is prescribed.
+using CouplingVector = Eigen::Vector4d;
 
 /// Strategy that finds d = H(d) from the answers H(d^k): the loop does not know which one it uses.
 class Accelerator {
@@ -42,7 +42,8 @@ class AitkenRelaxation : public Accelerator {
  private:
   double omega_initial_, omega_min_, omega_max_;
   double omega_;
-  CouplingVector previous_;  // residual of the last sub-iteration, empty after a reset
+  bool has_previous_ = false;
+  CouplingVector previous_;  // residual of the last sub-iteration
 };
 
 /// The strategy that the settings name.

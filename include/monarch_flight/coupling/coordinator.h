@@ -59,7 +59,6 @@ class Coordinator {
   CouplingVector increments(const Interface& interface) const;
   CouplingVector predictedIncrements() const;
   Interface guess(const CouplingVector& increments, const Interface& prescribed) const;
-  std::array<double, 4> named(const CouplingVector& increments) const;
   double loadChange(const Loads& loads, const Loads& previous) const;
   double imbalance(const CouplingVector& residual, const CouplingVector& increments) const;
   void updateScales(const Loads& loads);
@@ -70,13 +69,13 @@ class Coordinator {
   std::array<Participant*, 3> participants_;
   std::uint64_t run_id_;
   std::array<bool, 4> free_;      // x, z, pitch, wing pitch
-  std::array<double, 4> scales_;  // L / (beta dt^2): increment d to acceleration, a = d L / (beta dt^2)
+  CouplingVector scales_;         // L / (beta dt^2): increment d to acceleration, a = d L / (beta dt^2)
   Interface committed_;           // level n
-  std::array<CouplingVector, 3> history_;          // increments of the levels n, n-1, n-2
-  int levels_ = 0;                                 // how many of them are known
+  std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
+  int levels_ = 0;                         // how many of them are known
   // Running scales: largest of the recent past, at least what is worth noticing.
   double force_scale_ = 0.0, moment_scale_ = 0.0;
-  std::array<double, 4> increment_scales_{};
+  CouplingVector increment_scales_ = CouplingVector::Zero();
 };
 
 }  // namespace monarch_flight

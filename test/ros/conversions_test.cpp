@@ -1,0 +1,197 @@
+#include "monarch_flight/ros_io/conversions.h"
+
+#include <gtest/gtest.h>
+#include <ros/serialization.h>
+
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "monarch_flight/math/rotation.h"
+#include "monarch_flight/ros_io/flight_messages.h"
+#include "monarch_flight/ros_io/frames.h"
+
+namespace monarch_flight {
+namespace {
+
+std::mt19937_64 generator(20240501);
+
+// Any bit pattern that is a number: subnormal, huge, negative zero.
+double anyNumber() {
+  while (true) {
+    const std::uint64_t bits = generator();
+    double value;
+    std::memcpy(&value, &bits, sizeof value);
+    if (std::isfinite(value)) return value;
+  }
+}
+
+Eigen::Vector3d anyVector() { return {anyNumber(), anyNumber(), anyNumber()}; }
+Coordinate anyCoordinate() { return {anyNumber(), anyNumber(), anyNumber()}; }
+
+Interface anyInterface() {
+  Interface out;
+  out.body.x = anyVector();
+  out.body.v = anyVector();
+  out.body.a = anyVector();
+  for (int i = 0; i < 9; ++i) out.body.R_IB(i / 3, i % 3) = anyNumber();
+  out.body.Omega_B = anyVector();
+  out.body.Omega_dot_B = anyVector();
+  out.body.pitch = anyCoordinate();
+  out.theta_R = anyCoordinate();
+  return out;
+}
+
+Loads anyLoads() { return {anyVector(), anyVector(), anyVector(), anyVector()}; }
+
+template <class T>
+void expectBitwise(const T& a, const T& b) {
+  EXPECT_EQ(0, std::memcmp(&a, &b, sizeof(T)));
+}
+
+// Through the bytes of the wire.
+template <class Message>
+Message overTheWire(const Message& message) {
+  const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
+  Message out;
+  ros::serialization::deserializeMessage(bytes, out);
+  return out;
+}
+
+TEST(Conversions, RequestsCrossTheWireBitForBit) {
+  for (int i = 0; i < 100; ++i) {
+    Request request;
+    request.key = {generator(), static_cast<std::uint32_t>(generator()),
+                   static_cast<std::uint32_t>(generator()), static_cast<Phase>(i % 4)};
+    request.t = anyNumber();
+    request.interface = anyInterface();
+    request.loads = anyLoads();
+    request.want_fields = i % 2 == 1;
+    const Request back = fromMessage(overTheWire(toMessage(request)));
+    EXPECT_EQ(request.key, back.key);
+    expectBitwise(request.t, back.t);
+    expectBitwise(request.interface, back.interface);
+    expectBitwise(request.loads, back.loads);
+    EXPECT_EQ(request.want_fields, back.want_fields);
+  }
+}
+
+TEST(Conversions, RepliesCrossTheWireBitForBit) {
+  for (int i = 0; i < 100; ++i) {
+    Reply reply;
+    reply.key = {generator(), 7, 3, Phase::kCommit};
+    reply.interface = anyInterface();
+    reply.loads = anyLoads();
+    reply.report.courant = anyNumber();
+    reply.report.divergence = anyNumber();
+    reply.report.cells = i;
+    if (i % 2 == 1) {
+      for (int k = 0; k < 36; ++k) reply.report.added_mass(k / 6, k % 6) = anyNumber();
+    }
+    reply.wall_s = anyNumber();
+    reply.error = i % 3 == 0 ? "why" : "";
+    reply.surface.facets.push_back({1.5f, -2.5f, 3e-38f, 4.0f, -0.0f, 6e30f});
+    reply.vortices.push_back({1.0f, 2.0f, 3.0f, 4.0f, -5.0f});
+    reply.vortices.push_back({-1.0f, 0.1f, 0.2f, 0.3f, 0.4f});
+    const Reply back = fromMessage(overTheWire(toMessage(reply)));
+    EXPECT_EQ(reply.key, back.key);
+    expectBitwise(reply.interface, back.interface);
+    expectBitwise(reply.loads, back.loads);
+    expectBitwise(reply.report.courant, back.report.courant);
+    expectBitwise(reply.report.divergence, back.report.divergence);
+    EXPECT_EQ(reply.report.cells, back.report.cells);
+    expectBitwise(reply.report.added_mass, back.report.added_mass);
+    expectBitwise(reply.wall_s, back.wall_s);
+    EXPECT_EQ(reply.error, back.error);
+    ASSERT_EQ(1u, back.surface.facets.size());
+    expectBitwise(reply.surface.facets[0], back.surface.facets[0]);
+    ASSERT_EQ(2u, back.vortices.size());
+    expectBitwise(reply.vortices[0], back.vortices[0]);
+    expectBitwise(reply.vortices[1], back.vortices[1]);
+  }
+}
+
+TEST(Conversions, IterationRecordsCrossBitForBit) {
+  IterationRecord record;
+  record.step = 4000000000u;
+  record.iteration = 17;
+  record.residual = {anyNumber(), anyNumber(), anyNumber(), anyNumber()};
+  record.load_residual = anyNumber();
+  record.relaxation = anyNumber();
+  record.fluid_wall_s = anyNumber();
+  const IterationRecord back = fromMessage(overTheWire(toMessage(record)));
+  EXPECT_EQ(record.step, back.step);
+  EXPECT_EQ(record.iteration, back.iteration);
+  expectBitwise(record.residual, back.residual);
+  expectBitwise(record.load_residual, back.load_residual);
+  expectBitwise(record.relaxation, back.relaxation);
+  expectBitwise(record.fluid_wall_s, back.fluid_wall_s);
+}
+
+TEST(Conversions, UnusableMessagesAreNamed) {
+  ParticipantRequest request = toMessage(Request());
+  EXPECT_EQ("", problem(request));
+  request.key.phase = 4;
+  EXPECT_EQ("unknown phase 4", problem(request));
+  request.protocol = kProtocolVersion + 1;
+  EXPECT_NE(std::string::npos, problem(request).find("protocol version 2 instead of 1"));
+  ParticipantReply reply = toMessage(Reply());
+  EXPECT_EQ("", problem(reply));
+  reply.added_mass.resize(35);
+  EXPECT_NE(std::string::npos, problem(reply).find("35"));
+}
+
+TEST(Conversions, NonFiniteStatesAreSeenInEveryMember) {
+  const double bad[] = {std::numeric_limits<double>::quiet_NaN(),
+                        std::numeric_limits<double>::infinity()};
+  for (double value : bad) {
+    for (int member = 0; member < 8; ++member) {
+      Interface interface;
+      EXPECT_TRUE(finite(interface));
+      Eigen::Vector3d* vectors[] = {&interface.body.x, &interface.body.v, &interface.body.a,
+                                    &interface.body.Omega_B, &interface.body.Omega_dot_B};
+      if (member < 5) {
+        (*vectors[member])[2] = value;
+      } else if (member == 5) {
+        interface.body.R_IB(1, 2) = value;
+      } else {
+        (member == 6 ? interface.body.pitch : interface.theta_R).qdd = value;
+      }
+      EXPECT_FALSE(finite(interface)) << member;
+    }
+  }
+}
+
+TEST(Frames, WorldIsEastNorthUp) {
+  EXPECT_EQ(Eigen::Vector3d(2, 1, -3), nedToEnu() * Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(Eigen::Vector3d(1, -2, -3), frdToFlu() * Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(1.0, nedToEnu().determinant());
+  EXPECT_EQ(1.0, frdToFlu().determinant());
+}
+
+TEST(Frames, NoseUpTurnsBaseLinkUpwards) {
+  BodyState body;
+  body.R_IB = rotationY(0.3);  // pitch up in x forward, y right, z down
+  const Eigen::Vector3d nose = baseLinkAttitude(body) * Eigen::Vector3d::UnitX();
+  EXPECT_NEAR(0.0, nose.x(), 1e-15);            // east
+  EXPECT_NEAR(std::cos(0.3), nose.y(), 1e-15);  // north
+  EXPECT_NEAR(std::sin(0.3), nose.z(), 1e-15);  // up
+}
+
+TEST(Stamps, StartAtOneSecondAndDoNotDrift) {
+  TimeGrid time;
+  time.dt = 1.0 / 10.2 / 1000.0;
+  EXPECT_EQ(ros::Time(1, 0), stampOf(0, time));
+  // 10.2 million steps of 1/10200 s are 1000 s.
+  EXPECT_EQ(ros::Time(1001, 0), stampOf(10200000, time));
+  time.dt = 0.25;
+  EXPECT_EQ(ros::Time(1, 750000000), stampOf(3, time));
+}
+
+}  // namespace
+}  // namespace monarch_flight
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

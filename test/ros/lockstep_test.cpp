@@ -1,0 +1,406 @@
+// The lockstep protocol over a real master: both ends, and messages that should not be there.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <thread>
+
+#include "monarch_flight/ros_io/conversions.h"
+#include "monarch_flight/ros_io/lockstep_client.h"
+#include "monarch_flight/ros_io/lockstep_server.h"
+
+namespace monarch_flight {
+namespace {
+
+const std::string kSha(64, 'a');
+
+/// A solver that answers the loads (step, iteration, number of computations) and can dawdle or fail.
+class ScriptedSolver : public Participant {
+ public:
+  Reply exchange(const Request& request) override {
+    if (request.key.phase != Phase::kAbort) ++computed;
+    if (request.key.phase == slow_phase) ros::WallDuration(dawdle_s).sleep();
+    Reply reply;
+    reply.key = request.key;
+    reply.interface = request.interface;
+    reply.loads.force_pressure = {double(request.key.step), double(request.key.iteration),
+                                  double(computed.load())};
+    if (broken) reply.loads.force_pressure.x() = std::numeric_limits<double>::quiet_NaN();
+    return reply;
+  }
+  std::atomic<int> computed{0};
+  std::atomic<bool> broken{false};
+  Phase slow_phase = Phase::kCommit;
+  double dawdle_s = 0.0;
+};
+
+LockstepLimits shortLimits() {
+  LockstepLimits limits;
+  limits.connect_s = 5.0;
+  limits.exchange_s = 1.0;
+  limits.start_s = 2.0;
+  limits.silence_s = 30.0;
+  return limits;
+}
+
+/// Both ends in a namespace of their own; the server runs in a thread.
+class Lockstep : public testing::Test {
+ protected:
+  Lockstep() : node(uniqueNamespace()) {
+    run.id = 42;
+    run.limits = shortLimits();
+    run.stop = &stop;
+  }
+  ~Lockstep() override { endServer(); }
+
+  void startServer(const LockstepIdentity& identity) {
+    server = std::make_unique<LockstepServer>(node, identity, solver, server_limits, server_stop);
+    thread = std::thread([this] {
+      try {
+        server->serve();
+        server_end = "ended";
+      } catch (const std::exception& e) {
+        server_end = e.what();
+      }
+    });
+  }
+  void endServer() {
+    server_stop = true;
+    if (thread.joinable()) thread.join();
+  }
+  void joinServer() {
+    if (thread.joinable()) thread.join();
+  }
+  void connect() {
+    startServer(fluid);
+    client = std::make_unique<RosParticipant>(node, fluid, run);
+    client->connect();
+  }
+  static Request request(std::uint32_t step, std::uint32_t iteration, Phase phase) {
+    Request out;
+    out.key = {42, step, iteration, phase};
+    out.t = 0.1 * step;
+    return out;
+  }
+  static std::string failureOf(Participant& participant, const Request& request) {
+    try {
+      participant.exchange(request);
+    } catch (const ExchangeError& e) {
+      return e.what();
+    }
+    return "no failure";
+  }
+  static std::string uniqueNamespace() {
+    static int count = 0;
+    return "/lockstep_" + std::to_string(++count);
+  }
+  // Publishes on a topic of the fluid once its listener is there.
+  template <class Message>
+  ros::Publisher injector(const std::string& name) {
+    ros::Publisher out = node.advertise<Message>("fluid/" + name, 8);
+    for (int i = 0; i < 200 && out.getNumSubscribers() == 0; ++i) ros::WallDuration(0.01).sleep();
+    EXPECT_GT(out.getNumSubscribers(), 0u);
+    return out;
+  }
+  // Waits until a value has been reached.
+  template <class Condition>
+  static bool eventually(Condition condition, double limit_s = 5.0) {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(limit_s);
+    while (!condition() && ros::WallTime::now() < end) ros::WallDuration(0.01).sleep();
+    return condition();
+  }
+
+  LockstepIdentity fluid{Role::kFluid, "climb", kSha};
+  LockstepLimits server_limits = shortLimits();
+  ros::NodeHandle node;
+  bool stop = false, server_stop = false;
+  LockstepRun run;
+  ScriptedSolver solver;
+  std::unique_ptr<LockstepServer> server;
+  std::unique_ptr<RosParticipant> client;
+  std::thread thread;
+  std::string server_end;
+};
+
+TEST_F(Lockstep, EveryExchangeIsAnsweredOnce) {
+  connect();
+  const Reply start = client->exchange(request(0, 0, Phase::kStart));
+  EXPECT_EQ((ExchangeKey{42, 0, 0, Phase::kStart}), start.key);
+  for (std::uint32_t step = 1; step <= 20; ++step) {
+    for (std::uint32_t k = 0; k < 5; ++k) {
+      const Reply reply = client->exchange(request(step, k, Phase::kIterate));
+      EXPECT_EQ((ExchangeKey{42, step, k, Phase::kIterate}), reply.key);
+      EXPECT_EQ(Eigen::Vector2d(step, k), reply.loads.force_pressure.head<2>());
+    }
+    client->exchange(request(step, 4, Phase::kCommit));
+  }
+  EXPECT_EQ(1 + 20 * 6, solver.computed);
+  EXPECT_FALSE(client->counters().any());
+  client->exchange(request(20, 0, Phase::kAbort));
+  client.reset();
+  joinServer();
+  EXPECT_EQ("ended", server_end);
+  EXPECT_FALSE(server->counters().any());
+}
+
+TEST_F(Lockstep, ARepeatedRequestIsAnsweredFromTheCache) {
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  const Reply first = client->exchange(request(1, 0, Phase::kIterate));
+  const Reply again = client->exchange(request(1, 0, Phase::kIterate));
+  EXPECT_EQ(first.loads.force_pressure, again.loads.force_pressure);
+  EXPECT_EQ(2, solver.computed);
+  EXPECT_EQ(1u, server->counters().repeated);
+}
+
+TEST_F(Lockstep, TheServerIgnoresLateForeignAndMalformedRequests) {
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  client->exchange(request(1, 0, Phase::kIterate));
+  client->exchange(request(1, 0, Phase::kCommit));
+  const ros::Publisher raw = injector<ParticipantRequest>("request");
+  raw.publish(toMessage(request(1, 0, Phase::kIterate)));
+  ParticipantRequest foreign = toMessage(request(2, 0, Phase::kIterate));
+  foreign.key.run = 43;
+  raw.publish(foreign);
+  ParticipantRequest malformed = toMessage(request(2, 0, Phase::kIterate));
+  malformed.key.phase = 9;
+  raw.publish(malformed);
+  malformed = toMessage(request(2, 0, Phase::kIterate));
+  malformed.protocol = 99;
+  raw.publish(malformed);
+  foreign.key.phase = CouplingKey::ABORT;
+  raw.publish(foreign);  // may not end this run either
+  EXPECT_TRUE(eventually([this] {
+    const LockstepCounters& c = server->counters();
+    return c.late == 1 && c.foreign == 2 && c.malformed == 2;
+  })) << server->counters().describe();
+  EXPECT_EQ(3, solver.computed);
+  const Reply next = client->exchange(request(2, 0, Phase::kIterate));
+  EXPECT_EQ(2.0, next.loads.force_pressure.x());
+  EXPECT_EQ(4, solver.computed);
+}
+
+TEST_F(Lockstep, TheClientIgnoresLateRepeatedForeignAndMalformedReplies) {
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  client->exchange(request(1, 0, Phase::kIterate));
+  const ros::Publisher raw = injector<ParticipantReply>("reply");
+  Reply wrong;
+  wrong.loads.force_pressure.setConstant(1e9);
+  wrong.key = {42, 1, 0, Phase::kIterate};
+  raw.publish(toMessage(wrong));  // repeated: this exchange has its answer
+  wrong.key = {42, 0, 0, Phase::kStart};
+  raw.publish(toMessage(wrong));  // late
+  wrong.key = {43, 1, 1, Phase::kIterate};
+  raw.publish(toMessage(wrong));  // foreign, with the key of the next exchange
+  ParticipantReply malformed = toMessage(wrong);
+  malformed.protocol = 99;
+  raw.publish(malformed);
+  ros::WallDuration(0.2).sleep();
+  const Reply reply = client->exchange(request(1, 1, Phase::kIterate));
+  EXPECT_EQ(Eigen::Vector3d(1, 1, 3), reply.loads.force_pressure);
+  const LockstepCounters& c = client->counters();
+  EXPECT_EQ(1u, c.foreign);
+  EXPECT_EQ(1u, c.malformed);
+  EXPECT_EQ(2u, c.late + c.repeated);
+}
+
+TEST_F(Lockstep, AMissingReplyEndsInTheWatchdogWithItsName) {
+  solver.slow_phase = Phase::kIterate;
+  solver.dawdle_s = 2.0;
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  const ros::WallTime begin = ros::WallTime::now();
+  const std::string failure = failureOf(*client, request(7, 3, Phase::kIterate));
+  const double waited = (ros::WallTime::now() - begin).toSec();
+  EXPECT_NE(std::string::npos, failure.find("the fluid node")) << failure;
+  EXPECT_NE(std::string::npos, failure.find("step 7, sub-iteration 3, ITERATE within 1.0 s"));
+  EXPECT_GE(waited, 1.0);
+  EXPECT_LT(waited, 1.5);
+}
+
+TEST_F(Lockstep, AnAnswerThatComesTooLateIsNotTakenForTheNext) {
+  solver.slow_phase = Phase::kIterate;
+  solver.dawdle_s = 1.3;
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  failureOf(*client, request(1, 0, Phase::kIterate));
+  ros::WallDuration(0.6).sleep();
+  const Reply reply = client->exchange(request(1, 0, Phase::kCommit));
+  EXPECT_EQ(Phase::kCommit, reply.key.phase);
+  EXPECT_EQ(3, solver.computed);                 // the request sent again came from the cache
+  EXPECT_EQ(1u, server->counters().repeated);
+  EXPECT_EQ(2u, client->counters().late + client->counters().repeated);
+}
+
+TEST_F(Lockstep, ALostRequestIsAskedAgain) {
+  // A participant by hand that overhears the first request of the exchange.
+  ros::CallbackQueue queue;
+  ros::NodeHandle hand(node, "fluid");
+  hand.setCallbackQueue(&queue);
+  int heard = 0;
+  ros::Publisher replies = hand.advertise<ParticipantReply>("reply", 8);
+  ros::Publisher hello = hand.advertise<Hello>("hello", 8, true);
+  ros::Subscriber requests = hand.subscribe<ParticipantRequest>(
+      "request", 8, [&](const ParticipantRequestConstPtr& request) {
+        if (++heard == 1) return;
+        Reply reply;
+        reply.key = fromMessage(request->key);
+        replies.publish(toMessage(reply));
+      });
+  ros::Subscriber greeting = hand.subscribe<Hello>(
+      "coordinator_hello", 8,
+      [&](const HelloConstPtr& h) { hello.publish(makeHello(fluid, h->run)); });
+  ros::AsyncSpinner spinner(1, &queue);
+  spinner.start();
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  client->connect();
+  const Reply reply = client->exchange(request(1, 0, Phase::kIterate));
+  EXPECT_EQ((ExchangeKey{42, 1, 0, Phase::kIterate}), reply.key);
+  EXPECT_EQ(2, heard);
+  spinner.stop();
+}
+
+TEST_F(Lockstep, ANumberThatIsNotFiniteIsAnErrorAtTheBoundary) {
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  solver.broken = true;
+  const Reply reply = client->exchange(request(1, 0, Phase::kIterate));
+  EXPECT_NE(std::string::npos, reply.error.find("not finite at step 1, sub-iteration 0, ITERATE"));
+}
+
+TEST_F(Lockstep, DifferentCasesAreRefusedOnBothSides) {
+  LockstepIdentity other = fluid;
+  other.case_name = "hinge";
+  other.case_sha256 = std::string(64, 'b');
+  startServer(other);
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  try {
+    client->connect();
+    FAIL() << "the client agreed";
+  } catch (const ExchangeError& e) {
+    const std::string what = e.what();
+    EXPECT_NE(std::string::npos, what.find("the fluid node")) << what;
+    EXPECT_NE(std::string::npos, what.find("hinge (sha256 bbbbbbbbbbbb)")) << what;
+    EXPECT_NE(std::string::npos, what.find("climb (sha256 aaaaaaaaaaaa)")) << what;
+  }
+  joinServer();
+  EXPECT_NE(std::string::npos, server_end.find("handshake refused")) << server_end;
+  EXPECT_NE(std::string::npos, server_end.find("climb (sha256 aaaaaaaaaaaa)")) << server_end;
+  EXPECT_EQ(0, solver.computed);
+}
+
+TEST_F(Lockstep, AnotherProtocolVersionIsRefused) {
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  Hello hello = makeHello(fluid, run.id);
+  hello.protocol = 99;
+  ros::Publisher raw = node.advertise<Hello>("fluid/hello", 8, true);
+  raw.publish(hello);
+  try {
+    client->connect();
+    FAIL() << "the client agreed";
+  } catch (const ExchangeError& e) {
+    EXPECT_NE(std::string::npos, std::string(e.what()).find("protocol version 1 here, 99 in"));
+  }
+  Hello old = makeHello(fluid, 1);
+  old.role = "wing";
+  EXPECT_NE(std::string::npos, disagreement(fluid, old).find("role fluid here, wing in"));
+  EXPECT_EQ("", disagreement(fluid, makeHello(fluid, 1)));
+}
+
+TEST_F(Lockstep, AnAnswerToAnotherRunIsNoHandshake) {
+  run.limits.connect_s = 0.5;
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  ros::Publisher raw = node.advertise<Hello>("fluid/hello", 8, true);
+  raw.publish(makeHello(fluid, run.id + 1));
+  EXPECT_THROW(client->connect(), ExchangeError);
+  EXPECT_EQ(1u, client->counters().foreign);
+}
+
+TEST_F(Lockstep, AMissingParticipantIsNamed) {
+  run.limits.connect_s = 0.5;
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  try {
+    client->connect();
+    FAIL() << "connected to nobody";
+  } catch (const ExchangeError& e) {
+    EXPECT_NE(std::string::npos, std::string(e.what()).find(
+                                     "the fluid node did not answer the handshake within 0.5 s"));
+  }
+}
+
+TEST_F(Lockstep, AMissingCoordinatorIsNoticed) {
+  server_limits.connect_s = 0.5;
+  startServer(fluid);
+  joinServer();
+  EXPECT_NE(std::string::npos, server_end.find("no coordinator appeared within 0.5 s"));
+}
+
+TEST_F(Lockstep, ALostCoordinatorIsNoticed) {
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  client.reset();
+  const ros::WallTime begin = ros::WallTime::now();
+  joinServer();
+  EXPECT_NE(std::string::npos, server_end.find("is lost")) << server_end;
+  EXPECT_LT((ros::WallTime::now() - begin).toSec(), 1.0);
+}
+
+TEST_F(Lockstep, ASilentCoordinatorIsNoticed) {
+  server_limits.silence_s = 0.5;
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  client->exchange(request(1, 0, Phase::kIterate));
+  joinServer();
+  EXPECT_NE(std::string::npos, server_end.find("has been silent for 0.5 s")) << server_end;
+}
+
+TEST_F(Lockstep, ALostParticipantIsNoticedAtOnce) {
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  endServer();
+  server.reset();
+  const ros::WallTime begin = ros::WallTime::now();
+  const std::string failure = failureOf(*client, request(1, 0, Phase::kIterate));
+  EXPECT_NE(std::string::npos, failure.find("the fluid node (")) << failure;
+  EXPECT_NE(std::string::npos, failure.find("is lost")) << failure;
+  EXPECT_NE(std::string::npos, failure.find("step 1, sub-iteration 0, ITERATE")) << failure;
+  EXPECT_LT((ros::WallTime::now() - begin).toSec(), 0.5);
+}
+
+TEST_F(Lockstep, AnInterruptEndsAWait) {
+  solver.slow_phase = Phase::kIterate;
+  solver.dawdle_s = 0.9;
+  connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  std::thread interrupt([this] {
+    ros::WallDuration(0.2).sleep();
+    stop = true;
+  });
+  const ros::WallTime begin = ros::WallTime::now();
+  const std::string failure = failureOf(*client, request(1, 0, Phase::kIterate));
+  interrupt.join();
+  EXPECT_NE(std::string::npos, failure.find("interrupted while waiting for the fluid node"));
+  EXPECT_LT((ros::WallTime::now() - begin).toSec(), 0.5);
+}
+
+TEST(Limits, FollowFromTheWatchdog) {
+  const LockstepLimits limits = limitsFor(60.0);
+  EXPECT_EQ(60.0, limits.exchange_s);
+  EXPECT_EQ(60.0, limits.connect_s);
+  EXPECT_EQ(600.0, limits.start_s);
+  EXPECT_EQ(180.0, limits.silence_s);
+  EXPECT_EQ(30.0, limitsFor(2.0).connect_s);
+}
+
+}  // namespace
+}  // namespace monarch_flight
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "lockstep_test");
+  ros::NodeHandle keep;
+  return RUN_ALL_TESTS();
+}
