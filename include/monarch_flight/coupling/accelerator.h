@@ -15,7 +15,8 @@ class Accelerator {
   virtual ~Accelerator() = default;
   /// Forgets the past: the next residual is the first one of a new fixed-point problem.
   virtual void reset() = 0;
-  /// Replaces d = d^k by d^{k+1}, given the residual H(d^k) - d^k. Returns the relaxation factor applied.
+  /// Replaces d = d^k by d^{k+1}, given the residual H(d^k) - d^k. Returns the relaxation factor
+  /// applied.
   virtual double advance(CouplingVector& d, const CouplingVector& residual) = 0;
 };
 
@@ -31,8 +32,8 @@ class ConstantRelaxation : public Accelerator {
 };
 
 /// Aitken's vector Delta^2 (Kuettler & Wall 2008):
-/// omega_k = - omega_{k-1} r_{k-1}.(r_k - r_{k-1}) / |r_k - r_{k-1}|^2, its absolute value kept within
-/// [omega_min, omega_max]; the last factor stays where the residual did not change.
+/// omega_k = - omega_{k-1} r_{k-1}.(r_k - r_{k-1}) / |r_k - r_{k-1}|^2, its absolute value kept
+/// within [omega_min, omega_max]; the last factor stays where the residual did not change.
 class AitkenRelaxation : public Accelerator {
  public:
   AitkenRelaxation(double omega_initial, double omega_min, double omega_max);

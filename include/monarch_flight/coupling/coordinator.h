@@ -17,8 +17,10 @@ struct CoupledOutcome {
   std::string failure;
 };
 
-/// The implicit coupling of fluid, flight and wing (model.md section 5). One step from level n to n+1:
-///  1. predict: extrapolate the accelerations of the free coordinates, advance by Newmark: guess w^0
+/// The implicit coupling of fluid, flight and wing (model.md section 5). One step from level n to
+/// n+1:
+///  1. predict: extrapolate the accelerations of the free coordinates, advance by Newmark: guess
+///  w^0
 ///  2. exchange: loads for w^k from the fluid, the body's acceleration from the flight, the wing's
 ///     pitch acceleration from the wing: answer w~^k
 ///  3. residual: r^k = w~^k - w^k of each free coordinate, dimensionless; change and imbalance
@@ -30,12 +32,14 @@ struct CoupledOutcome {
 /// During the prescribed start, and when nothing is free, w^0 is the prescribed motion and is kept.
 class Coordinator {
  public:
-  /// Participants must outlive the coordinator. Throws InputError with every fault of model and settings.
+  /// Participants must outlive the coordinator. Throws InputError with every fault of model and
+  /// settings.
   Coordinator(const CoupledModel& model, const CouplingSettings& settings, Participant& fluid,
               Participant& flight, Participant& wing, std::uint64_t run_id);
 
-  /// Runs all steps; level 0 is delivered first. `stop` is polled between sub-iterations. Never throws
-  /// for a failed run: participants get ABORT, sinks get onEnd(failure), and the outcome says why.
+  /// Runs all steps; level 0 is delivered first. `stop` is polled between sub-iterations. Never
+  /// throws for a failed run: participants get ABORT, sinks get onEnd(failure), and the outcome
+  /// says why.
   CoupledOutcome run(const std::vector<StepSink*>& sinks, const bool& stop);
 
  private:
@@ -68,9 +72,9 @@ class Coordinator {
   CouplingSettings settings_;
   std::array<Participant*, 3> participants_;
   std::uint64_t run_id_;
-  std::array<bool, 4> free_;      // x, z, pitch, wing pitch
-  CouplingVector scales_;         // L / (beta dt^2): increment d to acceleration, a = d L / (beta dt^2)
-  Interface committed_;           // level n
+  std::array<bool, 4> free_;  // x, z, pitch, wing pitch
+  CouplingVector scales_;     // L / (beta dt^2): increment d to acceleration, a = d L / (beta dt^2)
+  Interface committed_;       // level n
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known
   // Running scales: largest of the recent past, at least what is worth noticing.

@@ -5,8 +5,8 @@
 
 namespace monarch_flight {
 
-/// Every number of an interface in a fixed order: x, v, a, R_IB (column by column), Omega_B, Omega_dot_B,
-/// pitch (q, qd, qdd), theta_R (q, qd, qdd).
+/// Every number of an interface in a fixed order: x, v, a, R_IB (column by column), Omega_B,
+/// Omega_dot_B, pitch (q, qd, qdd), theta_R (q, qd, qdd).
 using InterfaceValues = Eigen::Matrix<double, 30, 1>;
 InterfaceValues interfaceValues(const Interface& interface);
 

@@ -17,12 +17,12 @@ struct CoupledModel {
   /// Of everything that is prescribed, and of the free coordinates during the prescribed start.
   std::shared_ptr<const PrescribedMotion> motion = nullptr;
   FreeCoordinates free = {};
-  Newmark newmark = {};     ///< with the time step of the whole run
-  double gravity = 9.81;    ///< along +z of NED [m/s^2]
-  double t_start = 0.0;     ///< time of step 0 [s]
-  std::uint32_t steps = 0;  ///< of the whole run
-  int surface_every = 0;    ///< committed steps between pictures of the wing's pressure (0: never)
-  int vortices_every = 0;   ///< committed steps between pictures of the vortices (0: never)
+  Newmark newmark = {};      ///< with the time step of the whole run
+  double gravity = 9.81;     ///< along +z of NED [m/s^2]
+  double t_start = 0.0;      ///< time of step 0 [s]
+  std::uint32_t steps = 0;   ///< of the whole run
+  int surface_every = 0;     ///< committed steps between pictures of the wing's pressure (0: never)
+  int vortices_every = 0;    ///< committed steps between pictures of the vortices (0: never)
   double q_threshold = 0.0;  ///< vortices are where Q exceeds it [1/s^2]
   int vortex_limit = 20000;  ///< points at most in a picture of vortices
 

@@ -12,9 +12,11 @@ namespace monarch_flight {
 
 /// What the in-process participants have in common: keys, cache and failures.
 ///  - START takes the initial state and forgets everything else.
-///  - ITERATE of step n+1 is answered from (committed state n, request); the last answer is kept, and
+///  - ITERATE of step n+1 is answered from (committed state n, request); the last answer is kept,
+///  and
 ///    the same request again gets the same answer, bit for bit.
-///  - COMMIT must carry the key (run, step, iteration) of the last answered ITERATE and its guess, which
+///  - COMMIT must carry the key (run, step, iteration) of the last answered ITERATE and its guess,
+///  which
 ///    becomes the committed state. The same COMMIT again gets the same answer.
 ///  - ABORT ends the run: only START is accepted after it.
 /// Wrong keys, non-finite numbers and exceptions of a solver end in Reply::error, which names

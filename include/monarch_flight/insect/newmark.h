@@ -9,7 +9,8 @@ struct FreeCoordinates {
   int count() const { return int(x) + int(z) + int(pitch) + int(wing_pitch); }
 };
 
-/// Newmark-beta (average acceleration): q_{n+1} = q_n + dt qd_n + dt^2 ((1/2 - beta) qdd_n + beta qdd_{n+1}).
+/// Newmark-beta (average acceleration): q_{n+1} = q_n + dt qd_n + dt^2 ((1/2 - beta) qdd_n + beta
+/// qdd_{n+1}).
 struct Newmark {
   double beta = 0.25;
   double gamma = 0.5;
