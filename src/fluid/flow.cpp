@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "fluid/projection.h"
+#include "fluid/shared_flow.h"
 #include "fluid/wing_loads.h"
 #include "monarch_flight/fluid/navier_stokes.h"
+#include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/math/rotation.h"
 
@@ -245,8 +247,12 @@ void NavierStokes::commit() {
 
 std::unique_ptr<FluidModel> makeNavierStokes(const Planform& planform, const Air& air,
                                              const GridSettings& settings) {
-  return std::make_unique<NavierStokes>(makeGrid(planform, settings), air, planform.meanChord(),
-                                        settings.courant_limit);
+  Grid grid = makeGrid(planform, settings);
+  const double chord = planform.meanChord();
+  if (flowProcesses() > 1) {
+    return std::make_unique<SharedFlow>(grid, air, chord, settings.courant_limit, MPI_COMM_WORLD);
+  }
+  return std::make_unique<NavierStokes>(std::move(grid), air, chord, settings.courant_limit);
 }
 
 }  // namespace monarch_flight

@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 #include <mpi.h>
 
-#include "fluid/flow.h"
+#include "fluid/shared_flow.h"
+#include "monarch_flight/math/errors.h"
 #include "monarch_flight/math/rotation.h"
 
 namespace monarch_flight {
@@ -84,8 +85,46 @@ TEST_P(Processes, SaveAndRestoreBitwise) {
   EXPECT_EQ(first.force(), flow.evaluate(flapping(0.04)).force());
 }
 
+TEST(Slab, RefusesTooManyProcesses) {
+  int count = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  EXPECT_THROW(Slab(MPI_COMM_WORLD, 2 * count - 1), InputError);
+  EXPECT_EQ(Slab(MPI_COMM_WORLD, 2 * count).planes(), 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Outer, Processes, ::testing::Values(false, true),
                          [](const auto& info) { return info.param ? "open" : "rest"; });
+
+/// Process 0 flies, the others serve: what the fluid node does.
+bool sharedFlowFlies() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank != 0) {
+    SharedFlow::serve(MPI_COMM_WORLD);
+    return true;
+  }
+  NavierStokes alone(plate(false), thinAir(), 1.0, 10.0);
+  SharedFlow shared(plate(false), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
+  alone.start(flapping(0), 0.01);
+  shared.start(flapping(0), 0.01);
+  double worst = 0;
+  std::vector<char> state;
+  for (int n = 1; n <= 4; ++n) {
+    const Loads a = alone.evaluate(flapping(n * 0.01)), b = shared.evaluate(flapping(n * 0.01));
+    worst = std::max(worst, (a.force() - b.force()).norm() / a.force().norm());
+    alone.commit();
+    shared.commit();
+    state = shared.save();
+  }
+  const Eigen::Vector3d force = shared.evaluate(flapping(0.05)).force();
+  shared.restore(state);
+  const bool same = shared.evaluate(flapping(0.05)).force() == force;
+  const bool pictures = shared.surfacePressure().facets.size() == alone.surfacePressure().facets.size() &&
+                        shared.vortices(1.0, 50).size() == alone.vortices(1.0, 50).size();
+  SharedFlow::dismiss(MPI_COMM_WORLD);
+  std::printf("shared flow: difference %g, restored %d, pictures %d\n", worst, same, pictures);
+  return worst < 1e-10 && same && pictures;
+}
 
 }  // namespace
 }  // namespace monarch_flight
@@ -93,7 +132,8 @@ INSTANTIATE_TEST_SUITE_P(Outer, Processes, ::testing::Values(false, true),
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   ::testing::InitGoogleTest(&argc, argv);
-  const int failed = RUN_ALL_TESTS();
+  int failed = RUN_ALL_TESTS();
+  if (!monarch_flight::sharedFlowFlies()) failed = 1;
   MPI_Finalize();
   return failed;
 }

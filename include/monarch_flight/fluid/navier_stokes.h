@@ -6,7 +6,8 @@
 
 namespace monarch_flight {
 
-/// Three-dimensional incompressible Navier-Stokes around one zero-thickness wing (docs/fluid.md).
+/// Three-dimensional incompressible Navier-Stokes around one zero-thickness wing (docs/fluid.md), on all
+/// processes that mpirun started (processes.h). Throws InputError for a grid that does not fit.
 std::unique_ptr<FluidModel> makeNavierStokes(const Planform& planform, const Air& air,
                                              const GridSettings& settings);
 

@@ -1,0 +1,49 @@
+#include "monarch_flight/fluid/processes.h"
+
+#include <mpi.h>
+
+#include <cstdlib>
+
+#include "fluid/shared_flow.h"
+
+namespace monarch_flight {
+namespace {
+
+bool startedByMpirun() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"}) {
+    if (std::getenv(name) != nullptr) return true;
+  }
+  return false;
+}
+
+bool running() {
+  int begun = 0, ended = 0;
+  MPI_Initialized(&begun);
+  if (begun) MPI_Finalized(&ended);
+  return begun && !ended;
+}
+
+}  // namespace
+
+Processes::Processes(int* argc, char*** argv) {
+  if (!startedByMpirun()) return;
+  MPI_Init(argc, argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &count_);
+}
+
+Processes::~Processes() {
+  if (!running()) return;
+  if (rank_ == 0 && count_ > 1) SharedFlow::dismiss(MPI_COMM_WORLD);
+  MPI_Finalize();
+}
+
+void Processes::serveFlow() const { SharedFlow::serve(MPI_COMM_WORLD); }
+
+int flowProcesses() {
+  int count = 1;
+  if (running()) MPI_Comm_size(MPI_COMM_WORLD, &count);
+  return count;
+}
+
+}  // namespace monarch_flight

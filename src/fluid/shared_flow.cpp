@@ -1,0 +1,156 @@
+#include "fluid/shared_flow.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "monarch_flight/math/errors.h"
+
+namespace monarch_flight {
+namespace {
+
+enum class Order : int {
+  kMake,
+  kStart,
+  kEvaluate,
+  kCommit,
+  kSave,
+  kRestore,
+  kSurface,
+  kVortices,
+  kLeave
+};
+
+/// Values of process 0 to all. Motions are plain numbers and travel as bytes.
+template <class T>
+void share(MPI_Comm comm, T& value) {
+  MPI_Bcast(&value, sizeof(T), MPI_BYTE, 0, comm);
+}
+
+template <class T, class A>
+void share(MPI_Comm comm, std::vector<T, A>& values) {
+  long n = static_cast<long>(values.size());
+  share(comm, n);
+  values.resize(n);
+  const long chunk = 1L << 28;  // bytes: MPI counts are int
+  char* bytes = reinterpret_cast<char*>(values.data());
+  for (long at = 0, end = n * static_cast<long>(sizeof(T)); at < end; at += chunk) {
+    MPI_Bcast(bytes + at, static_cast<int>(std::min(chunk, end - at)), MPI_BYTE, 0, comm);
+  }
+}
+
+void give(MPI_Comm comm, Order order) { share(comm, order); }
+
+std::unique_ptr<NavierStokes> make(MPI_Comm comm, Grid grid, Air air, double length, double limit) {
+  share(comm, grid.x.face);
+  share(comm, grid.y.face);
+  share(comm, grid.z.face);
+  share(comm, grid.wing);
+  share(comm, grid.k_wing);
+  share(comm, grid.open);
+  share(comm, air);
+  share(comm, length);
+  share(comm, limit);
+  Grid whole = makeGrid(Axis::fromFaces(grid.x.face), Axis::fromFaces(grid.y.face),
+                        Axis::fromFaces(grid.z.face), grid.k_wing, grid.open, grid.wing);
+  return std::make_unique<NavierStokes>(std::move(whole), air, length, limit, comm);
+}
+
+}  // namespace
+
+SharedFlow::SharedFlow(const Grid& grid, const Air& air, double reference_length,
+                       double courant_limit, MPI_Comm comm)
+    : comm_(comm) {
+  give(comm_, Order::kMake);
+  flow_ = make(comm_, grid, air, reference_length, courant_limit);
+}
+
+void SharedFlow::start(const WingMotion& motion, double dt) {
+  give(comm_, Order::kStart);
+  WingMotion m = motion;
+  share(comm_, m);
+  share(comm_, dt);
+  flow_->start(m, dt);
+}
+
+Loads SharedFlow::evaluate(const WingMotion& next) {
+  give(comm_, Order::kEvaluate);
+  WingMotion m = next;
+  share(comm_, m);
+  return flow_->evaluate(m);
+}
+
+void SharedFlow::commit() {
+  give(comm_, Order::kCommit);
+  flow_->commit();
+}
+
+std::vector<char> SharedFlow::save() const {
+  give(comm_, Order::kSave);
+  return flow_->save();
+}
+
+void SharedFlow::restore(const std::vector<char>& bytes) {
+  give(comm_, Order::kRestore);
+  std::vector<char> all = bytes;
+  share(comm_, all);
+  flow_->restore(all);
+}
+
+SurfacePressure SharedFlow::surfacePressure() const {
+  give(comm_, Order::kSurface);
+  return flow_->surfacePressure();
+}
+
+std::vector<VortexPoint> SharedFlow::vortices(double q_threshold, int limit) const {
+  give(comm_, Order::kVortices);
+  share(comm_, q_threshold);
+  return flow_->vortices(q_threshold, limit);
+}
+
+void SharedFlow::dismiss(MPI_Comm comm) { give(comm, Order::kLeave); }
+
+void SharedFlow::serve(MPI_Comm comm) {
+  std::unique_ptr<NavierStokes> flow;
+  WingMotion motion;
+  std::vector<char> bytes;
+  double number = 0;
+  while (true) {
+    Order order = Order::kLeave;
+    share(comm, order);
+    try {
+      switch (order) {
+        case Order::kMake:
+          flow = make(comm, Grid(), Air(), 0, 0);
+          break;
+        case Order::kStart:
+          share(comm, motion), share(comm, number), flow->start(motion, number);
+          break;
+        case Order::kEvaluate:
+          share(comm, motion), flow->evaluate(motion);
+          break;
+        case Order::kCommit:
+          flow->commit();
+          break;
+        case Order::kSave:
+          flow->save();
+          break;
+        case Order::kRestore:
+          share(comm, bytes), flow->restore(bytes);
+          break;
+        case Order::kSurface:
+          flow->surfacePressure();
+          break;
+        case Order::kVortices:
+          share(comm, number), flow->vortices(number, 0);
+          break;
+        case Order::kLeave:
+          return;
+      }
+    } catch (const std::exception&) {
+      // The same failure happens on process 0, which tells it and decides.
+    }
+  }
+}
+
+}  // namespace monarch_flight

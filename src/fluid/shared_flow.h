@@ -1,0 +1,35 @@
+#pragma once
+#include <memory>
+
+#include "fluid/flow.h"
+
+namespace monarch_flight {
+
+/// The flow solver on several processes, as process 0 sees it: every call is told to the others,
+/// which make the same call on their slab (`serve`).
+class SharedFlow : public FluidModel {
+ public:
+  SharedFlow(const Grid& grid, const Air& air, double reference_length, double courant_limit,
+             MPI_Comm comm);
+
+  void start(const WingMotion& motion, double dt) override;
+  Loads evaluate(const WingMotion& next) override;
+  void commit() override;
+  std::vector<char> save() const override;
+  void restore(const std::vector<char>& bytes) override;
+  Matrix6d addedMass() const override { return flow_->addedMass(); }
+  FluidReport report() const override { return flow_->report(); }
+  long cells() const override { return flow_->cells(); }
+  SurfacePressure surfacePressure() const override;
+  std::vector<VortexPoint> vortices(double q_threshold, int limit) const override;
+
+  /// What every process but 0 does until `dismiss`.
+  static void serve(MPI_Comm comm);
+  static void dismiss(MPI_Comm comm);
+
+ private:
+  MPI_Comm comm_;
+  std::unique_ptr<NavierStokes> flow_;
+};
+
+}  // namespace monarch_flight
