@@ -1,0 +1,8 @@
+# Short whole flights through scripts/fly, one file test/flights/*_test.py each. `ctest -L flight` runs them.
+file(GLOB flight_tests CONFIGURE_DEPENDS test/flights/*_test.py)
+foreach(source ${flight_tests})
+  get_filename_component(name ${source} NAME_WE)
+  add_test(NAME flight_${name} COMMAND ${PYTHON_EXECUTABLE} ${source} -v)
+  set_tests_properties(flight_${name} PROPERTIES TIMEOUT 400 LABELS flight
+    ENVIRONMENT "MONARCH_BUILD=${CMAKE_BINARY_DIR};PYTHONPATH=${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION}:$ENV{PYTHONPATH}")
+endforeach()

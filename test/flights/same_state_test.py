@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+"""A climb of one flap in quasi-steady air: in one process and over nodes, and what it leaves behind."""
+import math
+import os
+import unittest
+
+import rosbag
+
+import flying
+
+COLUMNS = (
+    "t x y z vx vy vz ax ay az theta_B theta_B_dot theta_B_ddot qw qx qy qz phi psi theta_R "
+    "theta_R_dot theta_R_ddot theta_A fx fy fz mx my mz fx_p fy_p fz_p mx_p my_p mz_p FX FY FZ "
+    "sub_iterations courant").split()
+TOPICS = {
+    "/clock", "/tf", "/tf_static", "/joint_states", "/diagnostics", "/monarch_flight/case",
+    "/monarch_flight/state", "/monarch_flight/odom", "/monarch_flight/path",
+    "/monarch_flight/wrench/right_wing", "/monarch_flight/wrench/left_wing",
+    "/monarch_flight/wing_pressure", "/monarch_flight/iterations"}
+FILES = ["case.yaml", "flight.bag", "flight.csv", "iterations.csv", "summary.json"]
+STEPS, PRESCRIBED, TOLERANCE = 500, 10, 1e-8
+
+
+class SameState(flying.FlightTest):
+    """One flight for all: the second is compared with the first."""
+
+    def climb(self, name, *keys):
+        code, output = self.fly("case:=climb", "fluid:=quasi_steady", "flaps:=1",
+                                "steps_per_flap:=%d" % STEPS, "out:=" + self.out(name), *keys)
+        self.assertEqual(code, 0, output)
+        return output
+
+    def test_nodes_and_one_process_fly_the_same(self):
+        output = self.climb("nodes")
+        self.climb("process", "in_process:=true")
+        nodes, process = flying.summary(self.out("nodes")), flying.summary(self.out("process"))
+        self.assertEqual(nodes["state_sha256"], process["state_sha256"])
+        self.assertIn(nodes["state_sha256"], output)
+        for key in ("case_sha256", "steps", "sub_iterations", "climb_angle_deg", "theta_R_deg"):
+            self.assertEqual(nodes[key], process[key], key)
+        self.check_summary(nodes)
+        for folder in (self.out("nodes"), self.out("process")):
+            self.assertEqual(sorted(os.listdir(folder)), FILES)
+            self.check_flight(folder)
+            self.check_iterations(folder)
+            self.check_bag(folder)
+        self.check_case_flies_alone(nodes["state_sha256"])
+
+    def check_summary(self, s):
+        self.assertEqual((s["status"], s["failure"]), ("complete", ""))
+        self.assertEqual((s["steps"], s["flaps"], s["unconverged_steps"]), (STEPS, 1.0, 0))
+        self.assertGreater(s["sub_iterations"]["mean"], 1)
+        self.assertLessEqual(s["sub_iterations"]["mean"], s["sub_iterations"]["max"])
+        self.assertEqual(set(s["wall_s"]), {"total", "fluid", "flight", "wing", "exchange"})
+        self.assertEqual([len(row) for row in s["added_mass"]], [6] * 6)
+
+    def check_flight(self, folder):
+        columns, rows = flying.table(folder, "flight.csv")
+        self.assertEqual(columns, COLUMNS)
+        self.assertEqual(len(rows), STEPS + 1)
+        self.assertTrue(all(math.isfinite(x) for row in rows for x in row))
+        flight = {name: [row[i] for row in rows] for i, name in enumerate(columns)}
+        dt = 1 / 10.2 / STEPS
+        for n, t in enumerate(flight["t"]):
+            self.assertAlmostEqual(t, n * dt, delta=1e-12)
+        # Newmark's average acceleration holds between free levels, exactly but for rounding.
+        for n in range(PRESCRIBED, STEPS):
+            for v, a in (("vx", "ax"), ("vz", "az"), ("theta_B_dot", "theta_B_ddot")):
+                step = 0.5 * dt * (flight[a][n] + flight[a][n + 1])
+                self.assertAlmostEqual(flight[v][n + 1], flight[v][n] + step, delta=1e-9)
+            self.assertAlmostEqual(
+                sum(flight[q][n] ** 2 for q in ("qw", "qx", "qy", "qz")), 1.0, delta=1e-12)
+
+    def check_iterations(self, folder):
+        columns, rows = flying.table(folder, "iterations.csv")
+        last = {row[columns.index("step")]: row for row in rows}
+        residuals = [i for i, name in enumerate(columns) if name.startswith("residual")]
+        self.assertEqual(len(residuals), 4)
+        for step in range(PRESCRIBED + 1, STEPS + 1):
+            for i in residuals:
+                self.assertLessEqual(abs(last[step][i]), TOLERANCE)
+
+    def check_bag(self, folder):
+        with rosbag.Bag(os.path.join(folder, "flight.bag")) as bag:
+            topics = bag.get_type_and_topic_info().topics
+            self.assertEqual(set(topics), TOPICS)
+            for topic in ("/clock", "/tf", "/monarch_flight/state", "/monarch_flight/iterations"):
+                self.assertEqual(topics[topic].message_count, STEPS + 1, topic)
+            self.assertEqual(bag.get_start_time(), 1.0)
+
+    def check_case_flies_alone(self, expected):
+        """The resolved case repeats the flight without any key."""
+        code, output = self.fly("case:=" + os.path.join(self.out("nodes"), "case.yaml"),
+                                "in_process:=true", "record:=false", "out:=" + self.out("again"))
+        self.assertEqual(code, 0, output)
+        self.assertEqual(flying.summary(self.out("again"))["state_sha256"], expected)
+        self.assertFalse(os.path.exists(os.path.join(self.out("again"), "flight.bag")))
+
+
+if __name__ == "__main__":
+    unittest.main()

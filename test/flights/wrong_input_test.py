@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+"""What a person may type wrongly: one clear message, a non-zero exit code, nothing written."""
+import os
+import subprocess
+import unittest
+
+import flying
+
+KEYS = ("case", "fluid", "grid", "flaps", "steps_per_flap", "out", "rviz", "record", "ranks",
+        "in_process")
+
+
+class WrongInput(flying.FlightTest):
+    def refused(self, *arguments):
+        """Output of a command that must be refused at once, with its keys listed."""
+        code, output = self.fly(*arguments, limit=10)
+        self.assertEqual(code, 2, output)
+        for key in KEYS:
+            self.assertRegex(output, r"(?m)^  %s " % key)
+        self.assertNotIn("build:", output)
+        return output
+
+    def test_wrong_keys_and_values_are_named_all_at_once(self):
+        output = self.refused("flapps:=2", "grid", "fluid:=water", "flaps:=-1", "record:=yes",
+                              "ranks:=2", "steps_per_flap:=0.5", "rviz:=true", "flaps:=2")
+        for fault in ("unknown key 'flapps'", "'grid' is not of the form key:=value",
+                      "fluid:=water: must be navier_stokes or quasi_steady", "record:=yes",
+                      "ranks:=2", "steps_per_flap:=0.5", "no display", "'flaps' is given twice"):
+            self.assertIn(fault, output)
+
+    def test_missing_case(self):
+        output = self.refused("case:=" + self.out("nowhere.yaml"))
+        self.assertIn("nowhere.yaml: neither a shipped case", output)
+        self.assertIn("climb_fwuav", output)
+
+    def test_earlier_results_are_not_overwritten(self):
+        os.mkdir(self.out())
+        with open(self.out() + "/precious", "w") as f:
+            f.write("x")
+        self.assertIn("holds something already", self.refused("out:=" + self.out()))
+        self.assertEqual(os.listdir(self.out()), ["precious"])
+
+    def bad_case(self):
+        with open(os.path.join(flying.ROOT, "config", "cases", "climb.yaml")) as f:
+            text = f.read()
+        path = os.path.join(self.folder, "bad.yaml")
+        with open(path, "w") as f:
+            f.write(text.replace("  preset: monarch_paper",
+                                 "  preset: monarch_paper\n  body: {mass: -1}")
+                    .replace("  flaps: 2", "  flaps: 2\n  flapps: 3"))
+        return path
+
+    def check_case_faults(self, *keys):
+        code, output = self.fly("case:=" + self.bad_case(), "fluid:=quasi_steady",
+                                "out:=" + self.out(), *keys)
+        self.assertNotEqual(code, 0, output)
+        self.assertIn("insect/body/mass = -1", output)
+        self.assertIn("time/flapps", output)
+        self.assertFalse(os.path.exists(self.out()))
+
+    def test_faults_of_the_case_file_in_one_process(self):
+        self.check_case_faults("in_process:=true")
+
+    def test_faults_of_the_case_file_with_nodes(self):
+        self.check_case_faults()
+
+    def test_second_run_on_the_same_master(self):
+        core = subprocess.Popen(
+            ["roscore", "-p", self.master.rsplit(":", 1)[1]], stdout=subprocess.DEVNULL,
+            env=self.environment(ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost",
+                                 PATH="/usr/bin:" + os.environ["PATH"]))
+        self.addCleanup(self.end, core)
+        self.wait_for(lambda: subprocess.call(
+            [os.path.join(flying.ROOT, "scripts", "master"), "answers", self.master]) == 0,
+            30, "roscore")
+        common = dict(ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")
+        first = self.start("case:=tethered_fwuav", "fluid:=quasi_steady", "flaps:=40",
+                           "out:=" + self.out("first"), **common)
+        table = os.path.join(self.out("first"), "flight.csv.active")
+        self.wait_for(lambda: os.path.exists(table), 120, "the first flight to begin")
+        code, output = self.fly("fluid:=quasi_steady", "flaps:=1", "out:=" + self.out("second"),
+                                **common)
+        self.assertEqual(code, 1, output)
+        self.assertIn("a flight is running on %s already" % self.master, output)
+        self.assertFalse(os.path.exists(self.out("second")))
+        code, output = self.finish(first, 120)  # the first has not been disturbed
+        self.assertEqual(code, 0, output)
+        self.assertEqual(flying.summary(self.out("first"))["flaps"], 40.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
