@@ -1,4 +1,4 @@
-"""Whole flights for the tests: through the commands that a person types, each in a folder of its own."""
+"""Whole flights for the tests, through the commands that a person types, each in its own folder."""
 import csv
 import json
 import os
@@ -34,7 +34,8 @@ class FlightTest(unittest.TestCase):
 
     def environment(self, **more):
         env = {k: v for k, v in os.environ.items() if not k.startswith("ROS_") and k != "DISPLAY"}
-        env.update(MONARCH_BUILD=BUILD, MONARCH_AS_BUILT="1", ROS_LOG_DIR=os.path.join(self.folder, "log"), **more)
+        env.update(MONARCH_BUILD=BUILD, MONARCH_AS_BUILT="1",
+                   ROS_LOG_DIR=os.path.join(self.folder, "log"), **more)
         return env
 
     def start(self, *arguments, **environment):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A node that is killed in flight ends the run: soon, with its name, and with a non-zero exit code."""
+"""A node that is lost in flight ends the run: soon, with its name, and with a non-zero exit code."""
 import glob
 import os
 import re

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A climb of one flap in quasi-steady air: in one process and over nodes, and what it leaves behind."""
+"""A climb of one flap in quasi-steady air: in one process and over nodes, and what it writes."""
 import math
 import os
 import unittest
