@@ -10,7 +10,8 @@ file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
 foreach(source ${ros_tests})
   get_filename_component(name ${source} NAME_WE)
   add_executable(ros_${name} ${source})
-  target_link_libraries(ros_${name} PRIVATE monarch_ros_io ${tf2_LIBRARIES} GTest::gtest)
+  target_link_libraries(ros_${name} PRIVATE monarch_ros_io ${tf2_LIBRARIES} nlohmann_json::nlohmann_json
+    GTest::gtest)
   target_include_directories(ros_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)
   target_compile_definitions(ros_${name} PRIVATE
     NODE_DIR="${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}"

@@ -29,44 +29,50 @@ BagOutput::BagOutput(const std::string& path) : path_(path) {}
 
 BagOutput::~BagOutput() {
   try {
-    bag_.close();
+    if (bag_) bag_->close();
   } catch (const std::exception&) {  // the bag keeps its active name, and the run has said why
+    giveUp();
   }
 }
 
+// rosbag closes, and so writes, in its destructor; there a full disk would end the process. Whoever
+// cannot write leaves the bag open to the end of the process.
+void BagOutput::giveUp() { static_cast<void>(bag_.release()); }
+
 void BagOutput::open(const std::vector<StampedMessage>&) {
   try {
-    bag_.open(active(path_), rosbag::bagmode::Write);
-    bag_.setCompression(rosbag::compression::LZ4);
+    bag_ = std::make_unique<rosbag::Bag>();
+    bag_->open(active(path_), rosbag::bagmode::Write);
+    bag_->setCompression(rosbag::compression::LZ4);
   } catch (const rosbag::BagException& e) {
-    failed_ = true;
+    giveUp();
     throw OutputError("cannot create " + active(path_) + ": " + e.what());
   }
 }
 
 void BagOutput::write(const StampedMessage& message) {
-  if (failed_) return;
+  if (!bag_) return;
   try {
     std::visit(
         [&](const auto& content) {
           using Message = std::decay_t<decltype(content)>;
-          bag_.write(message.topic, message.stamp, content,
+          bag_->write(message.topic, message.stamp, content,
                      message.latched ? latchedHeader<Message>() : nullptr);
         },
         message.message);
   } catch (const rosbag::BagException& e) {
-    failed_ = true;
+    giveUp();
     throw OutputError("cannot write " + active(path_) + ": " + e.what() +
                       "; is the disk full? free space, choose another out:=, or record:=false");
   }
 }
 
 void BagOutput::close() {
-  if (failed_) throw OutputError(active(path_) + " is incomplete");
+  if (!bag_) throw OutputError(active(path_) + " is incomplete");
   try {
-    bag_.close();
+    bag_->close();
   } catch (const rosbag::BagException& e) {
-    failed_ = true;
+    giveUp();
     throw OutputError("cannot close " + active(path_) + ": " + e.what() + "; is the disk full?");
   }
   if (std::rename(active(path_).c_str(), path_.c_str()) != 0) {

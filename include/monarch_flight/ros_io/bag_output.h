@@ -1,6 +1,7 @@
 #pragma once
 #include <rosbag/bag.h>
 
+#include <memory>
 #include <string>
 
 #include "monarch_flight/ros_io/flight_messages.h"
@@ -19,9 +20,10 @@ class BagOutput : public MessageOutput {
   void close() override;
 
  private:
+  void giveUp();
+
   std::string path_;
-  rosbag::Bag bag_;
-  bool failed_ = false;
+  std::unique_ptr<rosbag::Bag> bag_;  // none before open() and after a failure
 };
 
 }  // namespace monarch_flight

@@ -1,0 +1,273 @@
+// What a flight in one process records: topics, counts, and that the messages agree with each other.
+#include <gtest/gtest.h>
+#include <monarch_flight/FlightState.h>
+#include <monarch_flight/StepIterations.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sys/resource.h>
+#include <tf2/buffer_core.h>
+
+#include <map>
+
+#include "monarch_flight/ros_io/conversions.h"
+#include "monarch_flight/ros_io/flight_messages.h"
+#include "monarch_flight/ros_io/frames.h"
+#include "ros/process.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr int kSteps = 120;
+
+/// One flight for all tests.
+class Bag : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder();
+    Process flight(std::string(NODE_DIR) + "/fly_in_process",
+                   {"case:=climb", "fluid:=quasi_steady", "steps_per_flap:=240", "flaps:=0.5",
+                    "out:=" + (*folder / "run")},
+                   *folder / "flight.log");
+    ASSERT_EQ(0, flight.wait(60.0)) << flight.output();
+    ASSERT_FALSE(exists(*folder / "run/flight.bag.active"));
+    bag = new rosbag::Bag(*folder / "run/flight.bag");
+    insect = new Case(loadCase("climb", {{"steps_per_flap", "240"}}, CONFIG_DIR));
+  }
+  static void TearDownTestSuite() {
+    delete bag;
+    delete insect;
+    delete folder;
+  }
+  template <class Message>
+  static std::vector<boost::shared_ptr<Message>> all(const std::string& topic) {
+    std::vector<boost::shared_ptr<Message>> out;
+    rosbag::View view(*bag, rosbag::TopicQuery(topic));
+    for (const rosbag::MessageInstance& m : view) out.push_back(m.instantiate<Message>());
+    return out;
+  }
+  static TemporaryFolder* folder;
+  static rosbag::Bag* bag;
+  static Case* insect;
+};
+TemporaryFolder* Bag::folder = nullptr;
+rosbag::Bag* Bag::bag = nullptr;
+Case* Bag::insect = nullptr;
+
+TEST_F(Bag, HoldsEveryTopicAsOftenAsExpected) {
+  std::map<std::string, int> count;
+  rosbag::View view(*bag);
+  for (const rosbag::MessageInstance& m : view) ++count[m.getTopic()];
+  std::map<std::string, int> expected;
+  for (const char* every_step :
+       {topics::kClock, topics::kTf, topics::kJointStates, topics::kState, topics::kOdometry,
+        topics::kRightWrench, topics::kLeftWrench, topics::kIterations}) {
+    expected[every_step] = kSteps + 1;
+  }
+  expected[topics::kTfStatic] = 1;
+  expected[topics::kCase] = 1;
+  expected[topics::kPath] = 16;         // a pose in 240 / 32 = 7.5 -> 8 steps: 0, 8, .. 120
+  expected[topics::kDiagnostics] = 11;  // every 12 steps: 0, 12, .. 120
+  expected[topics::kPressure] = kSteps / insect->output.surface_every;
+  EXPECT_EQ(expected, count);
+}
+
+TEST_F(Bag, StampsRunFromOneSecondWithTheStep) {
+  const auto clocks = all<rosgraph_msgs::Clock>(topics::kClock);
+  ASSERT_EQ(kSteps + 1u, clocks.size());
+  for (int i = 0; i <= kSteps; ++i) {
+    EXPECT_EQ(stampOf(static_cast<std::uint32_t>(i), insect->time), clocks[i]->clock);
+  }
+  EXPECT_EQ(ros::Time(1, 0), clocks[0]->clock);
+  rosbag::View view(*bag);
+  for (const rosbag::MessageInstance& m : view) {
+    if (const auto odometry = m.instantiate<nav_msgs::Odometry>()) {
+      EXPECT_EQ(m.getTime(), odometry->header.stamp);
+    }
+  }
+}
+
+// Attitude and place of right_wing in world_ned, from tf alone, against the wing's motion that the
+// flow solver is given for the recorded state.
+TEST_F(Bag, TheTfTreeAloneGivesTheWings) {
+  tf2::BufferCore buffer(ros::Duration(1000.0));
+  for (const char* topic : {topics::kTfStatic, topics::kTf}) {
+    for (const auto& message : all<tf2_msgs::TFMessage>(topic)) {
+      for (const auto& t : message->transforms) {
+        buffer.setTransform(t, "bag", topic == std::string(topics::kTfStatic));
+      }
+    }
+  }
+  const auto states = all<FlightState>(topics::kState);
+  ASSERT_EQ(kSteps + 1u, states.size());
+  for (const auto& state : states) {
+    const auto triple = [](const boost::array<double, 3>& a) {
+      return Coordinate{a[0], a[1], a[2]};
+    };
+    const Interface interface = fromMessage(state->interface);
+    const JointAngles angles{triple(state->phi), triple(state->psi), interface.theta_R,
+                             triple(state->theta_a)};
+    const WingMotion wing = rightWingMotion(insect->insect, interface.body, angles);
+    const auto tf = buffer.lookupTransform("world_ned", "right_wing", state->header.stamp).transform;
+    const Eigen::Quaterniond q(tf.rotation.w, tf.rotation.x, tf.rotation.y, tf.rotation.z);
+    EXPECT_LT((q.toRotationMatrix() - wing.R_IW).norm(), 1e-12);
+    const Eigen::Vector3d r(tf.translation.x, tf.translation.y, tf.translation.z);
+    EXPECT_LT((r - wing.r_I).norm(), 1e-15);
+
+    // The left wing mirrors the right one across the body's x-z plane.
+    const auto left = buffer.lookupTransform("body_frd", "left_wing", state->header.stamp).transform;
+    const auto right =
+        buffer.lookupTransform("body_frd", "right_wing", state->header.stamp).transform;
+    EXPECT_NEAR(right.translation.y, -left.translation.y, 1e-15);
+    const Eigen::Quaterniond ql(left.rotation.w, left.rotation.x, left.rotation.y, left.rotation.z);
+    const Eigen::Quaterniond qr(right.rotation.w, right.rotation.x, right.rotation.y,
+                                right.rotation.z);
+    const Eigen::Matrix3d mirror = Eigen::Vector3d(1, -1, 1).asDiagonal();
+    EXPECT_LT((mirror * qr.toRotationMatrix() * mirror - ql.toRotationMatrix()).norm(), 1e-12);
+    EXPECT_TRUE(buffer.canTransform("world", "abdomen", state->header.stamp));
+    EXPECT_TRUE(buffer.canTransform("base_link", "stroke_plane", state->header.stamp));
+  }
+}
+
+TEST_F(Bag, OdometryIsTheStateInEastNorthUp) {
+  const auto states = all<FlightState>(topics::kState);
+  const auto odometry = all<nav_msgs::Odometry>(topics::kOdometry);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Interface s = fromMessage(states[i]->interface);
+    const auto& o = *odometry[i];
+    EXPECT_EQ("world", o.header.frame_id);
+    EXPECT_EQ("base_link", o.child_frame_id);
+    EXPECT_EQ(s.body.x.y(), o.pose.pose.position.x);
+    EXPECT_EQ(s.body.x.x(), o.pose.pose.position.y);
+    EXPECT_EQ(-s.body.x.z(), o.pose.pose.position.z);
+    const Eigen::Quaterniond q(o.pose.pose.orientation.w, o.pose.pose.orientation.x,
+                               o.pose.pose.orientation.y, o.pose.pose.orientation.z);
+    const Eigen::Vector3d v(o.twist.twist.linear.x, o.twist.twist.linear.y,
+                            o.twist.twist.linear.z);
+    EXPECT_LT((q * v - nedToEnu() * s.body.v).norm(), 1e-12);
+    EXPECT_EQ(-s.body.Omega_B.y(), o.twist.twist.angular.y);  // nose down about left, positive
+  }
+}
+
+TEST_F(Bag, TheTwoWrenchesTogetherAreTheForce) {
+  const auto states = all<FlightState>(topics::kState);
+  const auto right = all<geometry_msgs::WrenchStamped>(topics::kRightWrench);
+  const auto left = all<geometry_msgs::WrenchStamped>(topics::kLeftWrench);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Interface s = fromMessage(states[i]->interface);
+    const JointAngles angles{{states[i]->phi[0], 0, 0}, {states[i]->psi[0], 0, 0}, s.theta_R, {}};
+    const double beta = insect->insect.beta;
+    const auto vector = [](const geometry_msgs::Vector3& v) {
+      return Eigen::Vector3d(v.x, v.y, v.z);
+    };
+    EXPECT_EQ("right_wing", right[i]->header.frame_id);
+    EXPECT_EQ("left_wing", left[i]->header.frame_id);
+    const Eigen::Vector3d force =
+        s.body.R_IB * (wingAttitude(beta, angles) * vector(right[i]->wrench.force) +
+                       leftWingAttitude(beta, angles) * vector(left[i]->wrench.force));
+    const Eigen::Vector3d recorded(states[i]->force[0], states[i]->force[1], states[i]->force[2]);
+    EXPECT_LT((force - recorded).norm(), 1e-12 * (1e-3 + recorded.norm()));
+    EXPECT_EQ(right[i]->wrench.torque.y, left[i]->wrench.torque.y);
+    EXPECT_EQ(right[i]->wrench.torque.x, -left[i]->wrench.torque.x);
+  }
+}
+
+TEST_F(Bag, TheIterationTableHasEverySubIteration) {
+  const auto states = all<FlightState>(topics::kState);
+  const auto tables = all<StepIterations>(topics::kIterations);
+  std::size_t rows = 0;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    EXPECT_EQ(i, tables[i]->step);
+    EXPECT_EQ(states[i]->sub_iterations, tables[i]->rows.size());
+    for (std::size_t k = 0; k < tables[i]->rows.size(); ++k) {
+      EXPECT_EQ(i, tables[i]->rows[k].step);
+      EXPECT_EQ(k, tables[i]->rows[k].iteration);
+    }
+    rows += tables[i]->rows.size();
+  }
+  const std::string table = fileText(*folder / "run/iterations.csv");
+  EXPECT_EQ(rows + 1, static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')));
+}
+
+TEST_F(Bag, PressureMarkersAreTrianglesOnBothWingsWithALegend) {
+  for (const auto& picture : all<visualization_msgs::MarkerArray>(topics::kPressure)) {
+    std::map<std::string, const visualization_msgs::Marker*> wings;
+    int numbers = 0;
+    for (const auto& marker : picture->markers) {
+      if (marker.ns == "pressure") wings[marker.header.frame_id] = &marker;
+      if (marker.type == visualization_msgs::Marker::TEXT_VIEW_FACING) ++numbers;
+    }
+    ASSERT_EQ(2u, wings.size());
+    const auto &right = *wings["right_wing"], &left = *wings["left_wing"];
+    ASSERT_GT(right.points.size(), 100u);
+    ASSERT_EQ(right.points.size(), 3 * right.colors.size());
+    ASSERT_EQ(right.points.size(), left.points.size());
+    for (std::size_t i = 0; i < right.points.size(); ++i) {
+      EXPECT_EQ(right.points[i].x, left.points[i].x);
+      EXPECT_EQ(right.points[i].y, -left.points[i].y);
+    }
+    EXPECT_EQ(6, numbers);  // five numbers and the title
+  }
+}
+
+TEST_F(Bag, TheCaseIsTheFileAndStaticTopicsAreLatched) {
+  const auto recorded = all<std_msgs::String>(topics::kCase);
+  ASSERT_EQ(1u, recorded.size());
+  EXPECT_EQ(fileText(*folder / "run/case.yaml"), recorded[0]->data);
+  rosbag::View view(*bag);
+  int latched = 0;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    const auto found = connection->header->find("latching");
+    if (found != connection->header->end() && found->second == "1") ++latched;
+  }
+  EXPECT_EQ(4, latched);  // tf_static, case, path, wing_pressure
+}
+
+TEST(LongPath, StaysBoundedAndKeepsItsBeginning) {
+  Case c = loadCase("climb", {{"fluid", "quasi_steady"}, {"steps_per_flap", "320"}}, CONFIG_DIR);
+  FlightMessages messages(c);
+  std::size_t poses = 0, published = 0, bytes = 0;
+  for (std::uint32_t step = 0; step <= 320 * 100; ++step) {
+    CommittedStep s;
+    s.step = step;
+    s.interface.body.x.x() = step;
+    for (const StampedMessage& m : messages.of(s)) {
+      const auto* path = std::get_if<nav_msgs::Path>(&m.message);
+      if (path == nullptr) continue;
+      poses = path->poses.size();
+      bytes += ros::serialization::serializationLength(*path);
+      ++published;
+      ASSERT_EQ(0.0, path->poses.front().pose.position.y);
+      ASSERT_EQ(double(step), path->poses.back().pose.position.y);
+    }
+  }
+  EXPECT_LE(poses, 400u);
+  EXPECT_GE(poses, 200u);
+  EXPECT_LT(published, 1200u);
+  EXPECT_LT(bytes, 40u << 20);  // 100 flaps; all poses in all messages would be 400 MB
+}
+
+TEST(FullDisk, LeavesTheBagUnderItsActiveName) {
+  TemporaryFolder folder;
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit small = before;
+  small.rlim_cur = 150000;  // inherited by the flight; stands for a full disk
+  signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  Process flight(std::string(NODE_DIR) + "/fly_in_process",
+                 {"case:=climb", "fluid:=quasi_steady", "flaps:=20", "out:=" + (folder / "run")},
+                 folder / "flight.log");
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(1, flight.wait(30.0));
+  EXPECT_NE(std::string::npos, flight.output().find("flight failed: ")) << flight.output();
+  EXPECT_FALSE(exists(folder / "run/flight.bag"));
+  EXPECT_TRUE(exists(folder / "run/flight.bag.active"));
+}
+
+}  // namespace
+}  // namespace monarch_flight
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

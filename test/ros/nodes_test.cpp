@@ -1,0 +1,191 @@
+// The executables as a person runs them: whole flights, killed and hung nodes, wrong parameters.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include <nlohmann/json.hpp>
+
+#include "ros/process.h"
+
+namespace monarch_flight {
+namespace {
+
+/// Parameters on the master and the four nodes.
+class Nodes : public testing::Test {
+ protected:
+  Nodes() {
+    ros::param::del("/monarch_flight");
+    ros::param::set("/monarch_flight/case", "climb");
+    ros::param::set("/monarch_flight/fluid", "quasi_steady");
+    ros::param::set("/monarch_flight/flaps", 0.1);
+    ros::param::set("/monarch_flight/out", folder / "run");
+  }
+  std::unique_ptr<Process> start(const std::string& name, const std::string& log = "") {
+    const std::string file = folder / ((log.empty() ? name : log) + ".log");
+    return std::make_unique<Process>(std::string(NODE_DIR) + "/" + name,
+                                     std::vector<std::string>(), file);
+  }
+  void startAll() {
+    coordinator = start("coordinator");
+    fluid = start("fluid");
+    flight = start("flight");
+    wing = start("wing");
+  }
+  // A flight that is long enough to be disturbed, and has begun.
+  void startLongFlight() {
+    ros::param::set("/monarch_flight/flaps", 50);
+    startAll();
+    ASSERT_TRUE(coordinator->prints("results in", 20.0)) << coordinator->output();
+    ros::WallDuration(0.5).sleep();
+    ASSERT_TRUE(coordinator->running()) << coordinator->output();
+  }
+  nlohmann::json summary(const std::string& run = "run") {
+    return nlohmann::json::parse(fileText(folder / (run + "/summary.json")));
+  }
+  static bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+
+  TemporaryFolder folder;
+  std::unique_ptr<Process> coordinator, fluid, flight, wing;
+};
+
+TEST_F(Nodes, FlyLikeOneProcessBitForBit) {
+  startAll();
+  EXPECT_EQ(0, coordinator->wait(40.0)) << coordinator->output();
+  EXPECT_EQ(0, fluid->wait(5.0)) << fluid->output();
+  EXPECT_EQ(0, flight->wait(5.0)) << flight->output();
+  EXPECT_EQ(0, wing->wait(5.0)) << wing->output();
+  Process alone(std::string(NODE_DIR) + "/fly_in_process",
+                {"case:=climb", "fluid:=quasi_steady", "flaps:=0.1", "out:=" + (folder / "alone")},
+                folder / "alone.log");
+  EXPECT_EQ(0, alone.wait(20.0)) << alone.output();
+  const nlohmann::json nodes = summary(), process = summary("alone");
+  EXPECT_EQ("complete", nodes["status"]);
+  EXPECT_EQ(50, nodes["steps"]);
+  EXPECT_EQ(process["state_sha256"], nodes["state_sha256"]);
+  EXPECT_EQ(process["added_mass"], nodes["added_mass"]);
+  EXPECT_EQ(process["case_sha256"], nodes["case_sha256"]);
+  EXPECT_EQ(fileText(folder / "alone/flight.csv"), fileText(folder / "run/flight.csv"));
+}
+
+TEST_F(Nodes, AKilledNodeEndsTheRunAtOnceAndIsNamed) {
+  startLongFlight();
+  wing->send(SIGKILL);
+  const ros::WallTime begin = ros::WallTime::now();
+  EXPECT_EQ(1, coordinator->wait(10.0)) << coordinator->output();
+  EXPECT_LT((ros::WallTime::now() - begin).toSec(), 5.0);
+  EXPECT_TRUE(contains(coordinator->output(), "the wing node (/monarch_flight/wing) is lost"))
+      << coordinator->output();
+  EXPECT_EQ("failed", summary()["status"]);
+  EXPECT_TRUE(contains(summary()["failure"], "the wing node"));
+  EXPECT_TRUE(exists(folder / "run/flight.bag"));
+  EXPECT_FALSE(exists(folder / "run/flight.bag.active"));
+  EXPECT_EQ(0, fluid->wait(5.0)) << fluid->output();  // the coordinator has ended the run in order
+  EXPECT_EQ(0, flight->wait(5.0)) << flight->output();
+}
+
+TEST_F(Nodes, AHungNodeEndsTheRunByTheWatchdogAndIsNamed) {
+  ros::param::set("/monarch_flight/watchdog", 1.5);
+  startLongFlight();
+  fluid->send(SIGSTOP);
+  EXPECT_EQ(1, coordinator->wait(15.0)) << coordinator->output();
+  EXPECT_TRUE(contains(coordinator->output(),
+                       "the fluid node (/monarch_flight/fluid) did not answer step"))
+      << coordinator->output();
+  EXPECT_TRUE(contains(coordinator->output(), "within 1.5 s (watchdog)"));
+  EXPECT_EQ(0, flight->wait(5.0)) << flight->output();
+  EXPECT_EQ(0, wing->wait(5.0)) << wing->output();
+}
+
+TEST_F(Nodes, AKilledCoordinatorEndsTheSolvers) {
+  startLongFlight();
+  coordinator->send(SIGKILL);
+  for (Process* node : {fluid.get(), flight.get(), wing.get()}) {
+    EXPECT_EQ(1, node->wait(5.0)) << node->output();
+    EXPECT_TRUE(contains(node->output(), "the coordinator (/monarch_flight/coordinator) is lost"))
+        << node->output();
+  }
+  EXPECT_TRUE(exists(folder / "run/flight.bag.active"));
+  EXPECT_FALSE(exists(folder / "run/flight.bag"));
+}
+
+TEST_F(Nodes, AnInterruptClosesTheFiles) {
+  startLongFlight();
+  coordinator->send(SIGINT);
+  EXPECT_EQ(130, coordinator->wait(5.0)) << coordinator->output();
+  EXPECT_TRUE(contains(coordinator->output(), "interrupted"));
+  EXPECT_TRUE(exists(folder / "run/flight.bag"));
+  EXPECT_TRUE(exists(folder / "run/flight.csv"));
+}
+
+TEST_F(Nodes, ASecondRunIsRefusedAndTheFirstGoesOn) {
+  startLongFlight();
+  for (const char* name : {"coordinator", "fluid", "flight", "wing"}) {
+    const std::unique_ptr<Process> second = start(name, std::string("second_") + name);
+    EXPECT_EQ(2, second->wait(10.0)) << second->output();
+    EXPECT_TRUE(contains(second->output(), "a run is already going on")) << second->output();
+  }
+  EXPECT_TRUE(coordinator->running()) << coordinator->output();
+  EXPECT_TRUE(fluid->running() && flight->running() && wing->running());
+}
+
+TEST_F(Nodes, ADifferentCaseIsRefusedOnBothSides) {
+  coordinator = start("coordinator");
+  fluid = start("fluid");
+  flight = start("flight");
+  for (Process* node : {coordinator.get(), fluid.get(), flight.get()}) ASSERT_TRUE(node->running());
+  ros::WallDuration(3.0).sleep();  // they have read their parameters
+  ros::param::set("/monarch_flight/steps_per_flap", 700);
+  wing = start("wing");
+  EXPECT_EQ(1, coordinator->wait(10.0)) << coordinator->output();
+  EXPECT_TRUE(contains(coordinator->output(), "the wing node (/monarch_flight/wing) refuses"))
+      << coordinator->output();
+  EXPECT_EQ(1, wing->wait(5.0)) << wing->output();
+  EXPECT_TRUE(contains(wing->output(), "handshake refused: case climb")) << wing->output();
+  EXPECT_FALSE(exists(folder / "run"));
+}
+
+TEST_F(Nodes, EveryWrongParameterIsNamedAtOnce) {
+  ros::param::set("/monarch_flight/ranks", 4);
+  ros::param::set("/monarch_flight/watchdog", -1);
+  ros::param::set("/monarch_flight/flap", 3);
+  ros::param::set("/monarch_flight/wing/mass", 3.0);
+  coordinator = start("coordinator");
+  EXPECT_EQ(2, coordinator->wait(10.0));
+  const std::string text = coordinator->output();
+  EXPECT_TRUE(contains(text, "/monarch_flight/ranks = 4: parallel runs are not available")) << text;
+  EXPECT_TRUE(contains(text, "/monarch_flight/watchdog = -1: must be")) << text;
+  EXPECT_TRUE(contains(text, "/monarch_flight/flap: unknown parameter")) << text;
+  EXPECT_TRUE(contains(text, "/monarch_flight/wing/mass: unknown parameter")) << text;
+  EXPECT_FALSE(exists(folder / "run"));
+}
+
+TEST_F(Nodes, AFolderThatIsInUseIsRefused) {
+  startAll();
+  EXPECT_EQ(0, coordinator->wait(40.0)) << coordinator->output();
+  const std::string before = fileText(folder / "run/flight.csv");
+  startAll();
+  EXPECT_EQ(2, coordinator->wait(40.0)) << coordinator->output();
+  EXPECT_TRUE(contains(coordinator->output(), "must be a new or an empty folder"));
+  EXPECT_EQ(before, fileText(folder / "run/flight.csv"));
+  EXPECT_EQ(0, wing->wait(5.0)) << wing->output();
+}
+
+TEST_F(Nodes, AMissingMasterIsSaid) {
+  const std::string master = std::getenv("ROS_MASTER_URI");
+  setenv("ROS_MASTER_URI", "http://localhost:1", 1);
+  coordinator = start("coordinator");
+  setenv("ROS_MASTER_URI", master.c_str(), 1);
+  EXPECT_EQ(2, coordinator->wait(10.0));
+  EXPECT_TRUE(contains(coordinator->output(), "no ROS master answers at http://localhost:1"));
+}
+
+}  // namespace
+}  // namespace monarch_flight
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "nodes_test");
+  ros::NodeHandle keep;
+  return RUN_ALL_TESTS();
+}

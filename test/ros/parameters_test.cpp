@@ -1,0 +1,105 @@
+// Parameters of a run: command line and parameter server, every fault at once.
+#include "monarch_flight/ros_io/run_parameters.h"
+
+#include <XmlRpcValue.h>
+#include <gtest/gtest.h>
+
+#include "monarch_flight/math/errors.h"
+
+namespace monarch_flight {
+namespace {
+
+RunParameters fromArguments(std::vector<std::string> arguments) {
+  std::vector<char*> argv = {const_cast<char*>("program")};
+  for (std::string& a : arguments) argv.push_back(a.data());
+  return runParameters(static_cast<int>(argv.size()), argv.data());
+}
+
+std::string faultsOf(const std::vector<std::string>& arguments) {
+  try {
+    fromArguments(arguments);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(RunParameters, CommandLineAndServerMeanTheSame) {
+  const RunParameters line =
+      fromArguments({"case:=hinge", "flaps:=0.1", "steps_per_flap:=200", "record:=false",
+                     "out:=/tmp/x", "watchdog:=2.5", "ranks:=1", "grid:=", "__name:=other"});
+  XmlRpc::XmlRpcValue values;
+  values["case"] = "hinge";
+  values["flaps"] = 0.1;
+  values["steps_per_flap"] = 200;
+  values["record"] = false;
+  values["out"] = "/tmp/x";
+  values["watchdog"] = 2.5;
+  values["ranks"] = 1;
+  values["grid"] = "";
+  values["coordinator"]["diagnostic_period"] = 1.0;
+  const RunParameters server = runParameters(values, "/monarch_flight/");
+  for (const RunParameters& p : {line, server}) {
+    EXPECT_EQ("hinge", p.name);
+    EXPECT_EQ("/tmp/x", p.out);
+    EXPECT_EQ(2.5, p.watchdog_s);
+    EXPECT_EQ((CaseOverrides{{"flaps", "0.1"}, {"steps_per_flap", "200"}, {"record", "false"}}),
+              p.overrides);
+  }
+  EXPECT_EQ(loadCase(line).sha256, loadCase(server).sha256);
+  EXPECT_EQ(2.5, loadCase(server).watchdog_s);
+}
+
+TEST(RunParameters, EveryFaultIsNamedAtOnce) {
+  const std::string faults =
+      faultsOf({"flap:=3", "ranks:=2", "watchdog:=soon", "nonsense", "case:=a", "case:=b"});
+  EXPECT_NE(std::string::npos, faults.find("flap: unknown parameter; known are case")) << faults;
+  EXPECT_NE(std::string::npos, faults.find("ranks = 2: parallel runs are not available"));
+  EXPECT_NE(std::string::npos, faults.find("watchdog = soon: must be a number"));
+  EXPECT_NE(std::string::npos, faults.find("'nonsense': must be key:=value"));
+  EXPECT_NE(std::string::npos, faults.find("'case:=b': this key is given twice"));
+}
+
+TEST(RunParameters, NothingSetMeansTheShippedFlight) {
+  XmlRpc::XmlRpcValue none;
+  const RunParameters p = runParameters(none, "/monarch_flight/");
+  EXPECT_EQ("climb", p.name);
+  EXPECT_TRUE(p.overrides.empty());
+  EXPECT_EQ(0.0, p.watchdog_s);
+}
+
+TEST(RunParameters, ListsAndPrivateParametersAreRefused) {
+  XmlRpc::XmlRpcValue values;
+  values["flaps"][0] = 1;
+  values["fluid"]["density"] = 1.0;
+  try {
+    runParameters(values, "/monarch_flight/");
+    FAIL();
+  } catch (const InputError& e) {
+    const std::string what = e.what();
+    EXPECT_NE(std::string::npos, what.find("/monarch_flight/flaps: must be a number")) << what;
+    EXPECT_NE(std::string::npos, what.find("/monarch_flight/fluid/density: unknown")) << what;
+  }
+}
+
+TEST(OutputDirectory, StartsWhereTheRunWasCalled) {
+  Case c;
+  c.name = "climb";
+  RunParameters p;
+  p.directory = "/somewhere";
+  p.out = "there/../here";
+  EXPECT_EQ("/somewhere/here", outputDirectory(p, c));
+  p.out = "/absolute";
+  EXPECT_EQ("/absolute", outputDirectory(p, c));
+  p.out = "";
+  const std::string standard = outputDirectory(p, c);
+  EXPECT_EQ(0u, standard.find("/somewhere/flights/climb-20")) << standard;
+}
+
+}  // namespace
+}  // namespace monarch_flight
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,125 @@
+// The URDF moved by robot_state_publisher from joint states gives the frames of the coordinator.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <tf2/buffer_core.h>
+
+#include <random>
+
+#include "monarch_flight/ros_io/flight_messages.h"
+#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/ros_io/run_parameters.h"
+#include "monarch_flight/viz/mesh.h"
+#include "monarch_flight/viz/urdf.h"
+#include "ros/process.h"
+
+namespace monarch_flight {
+namespace {
+
+Case climb() { return loadCase("climb", {{"fluid", "quasi_steady"}}, CONFIG_DIR); }
+
+TEST(Urdf, TheShippedOneIsThatOfThePaperPreset) {
+  const Case c = climb();
+  TemporaryFolder folder;
+  writeMeshes(c.insect, folder / "meshes");
+  EXPECT_EQ(insectUrdf(c.insect, "package://monarch_flight/urdf/meshes/"),
+            fileText(std::string(URDF_DIR) + "/monarch.urdf"));
+  for (const char* mesh : {"right_wing.stl", "left_wing.stl", "thorax.stl", "abdomen.stl"}) {
+    EXPECT_EQ(fileText(folder / (std::string("meshes/") + mesh)),
+              fileText(std::string(URDF_DIR) + "/meshes/" + mesh))
+        << mesh;
+  }
+}
+
+TEST(Mesh, TheWingHasItsAreaOnBothSides) {
+  const Planform planform = Planform::ellipse(0.02, 0.05, 0.25);
+  for (bool left : {false, true}) {
+    double area = 0.0;
+    for (const auto& t : wingMesh(planform, left, 400).triangles) {
+      area += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+      for (const auto& p : t) {
+        EXPECT_EQ(0.0f, p.z());
+        EXPECT_LE((left ? -p.y() : p.y()), 0.05f * 1.0001f);
+        EXPECT_GE((left ? -p.y() : p.y()), 0.0f);
+      }
+    }
+    EXPECT_NEAR(2.0 * planform.area(), area, 1e-4 * area);
+  }
+}
+
+TEST(Mesh, TheEllipsoidIsClosedAndFacesOutwards) {
+  const Mesh mesh = ellipsoidMesh({1, 2, 3}, 4.0, 2.0);
+  Eigen::Vector3f closed = Eigen::Vector3f::Zero();
+  double volume = 0.0;
+  for (const auto& t : mesh.triangles) {
+    closed += (t[1] - t[0]).cross(t[2] - t[0]);
+    const Eigen::Vector3f c(1, 2, 3);
+    volume += (t[0] - c).dot((t[1] - c).cross(t[2] - c)) / 6.0;
+  }
+  EXPECT_LT(closed.norm(), 1e-4f);
+  EXPECT_NEAR(M_PI / 6.0 * 4.0 * 4.0, volume, 0.04 * volume);
+}
+
+TEST(Urdf, MovesLikeTheFrames) {
+  const Case c = climb();
+  ros::param::set("/robot_description", insectUrdf(c.insect, "package://monarch_flight/urdf/"));
+  ros::param::set("/robot_state_publisher/publish_frequency", 1e6);
+  TemporaryFolder folder;
+  Process publisher("/usr/lib/robot_state_publisher/robot_state_publisher", {}, folder / "rsp.log");
+  ros::NodeHandle node;
+  tf2::BufferCore buffer(ros::Duration(1000.0));
+  const auto keep = [&buffer](const tf2_msgs::TFMessageConstPtr& message, bool fixed) {
+    for (const auto& t : message->transforms) buffer.setTransform(t, "rsp", fixed);
+  };
+  const ros::Subscriber moving = node.subscribe<tf2_msgs::TFMessage>(
+      "/tf", 100, [&keep](const tf2_msgs::TFMessageConstPtr& m) { keep(m, false); });
+  const ros::Subscriber fixed = node.subscribe<tf2_msgs::TFMessage>(
+      "/tf_static", 100, [&keep](const tf2_msgs::TFMessageConstPtr& m) { keep(m, true); });
+  const ros::Publisher joint_states = node.advertise<sensor_msgs::JointState>("/joint_states", 8);
+  for (int i = 0; i < 1000 && (joint_states.getNumSubscribers() == 0 ||
+                              moving.getNumPublishers() == 0 || fixed.getNumPublishers() == 0);
+       ++i) {
+    ros::WallDuration(0.01).sleep();
+  }
+  ASSERT_GT(joint_states.getNumSubscribers(), 0u) << publisher.output();
+  ros::WallDuration(0.5).sleep();
+
+  FlightMessages messages(c);
+  std::mt19937_64 generator(7);
+  std::uniform_real_distribution<double> angle(-1.2, 1.2);
+  for (std::uint32_t i = 1; i <= 20; ++i) {
+    CommittedStep step;
+    step.step = i;
+    step.angles = {{angle(generator), 0, 0}, {angle(generator), 0, 0}, {angle(generator), 0, 0},
+                   {angle(generator), 0, 0}};
+    for (const StampedMessage& m : messages.of(step)) {
+      const auto* joints = std::get_if<sensor_msgs::JointState>(&m.message);
+      if (joints != nullptr) joint_states.publish(*joints);
+    }
+    const ros::Time stamp = stampOf(i, c.time);
+    for (int k = 0; k < 500 && !buffer.canTransform("base_link", "abdomen_link", stamp); ++k) {
+      ros::WallDuration(0.01).sleep();
+      ros::spinOnce();
+    }
+    for (const auto& t : staticTransforms(c.insect, stamp)) buffer.setTransform(t, "test", true);
+    for (const auto& t : movingTransforms(c.insect, {}, step.angles, stamp)) {
+      buffer.setTransform(t, "test", false);
+    }
+    for (const char* frame : {"right_wing", "left_wing", "abdomen"}) {
+      const std::string link = std::string(frame) + "_link";
+      ASSERT_TRUE(buffer.canTransform(frame, link, stamp)) << frame;
+      const auto t = buffer.lookupTransform(frame, link, stamp).transform;
+      EXPECT_LT(Eigen::Vector3d(t.translation.x, t.translation.y, t.translation.z).norm(), 1e-12);
+      EXPECT_NEAR(1.0, std::abs(t.rotation.w), 1e-12) << frame;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace monarch_flight
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "urdf_test");
+  ros::NodeHandle keep;
+  return RUN_ALL_TESTS();
+}
