@@ -5,9 +5,12 @@
 
 namespace monarch_flight {
 
-double ConstantRelaxation::advance(CouplingVector& d, const CouplingVector& residual) {
-  d += omega_ * residual;
-  return omega_;
+bool Accelerator::wantsOperator(int) const { return false; }
+
+void Accelerator::endStep(const Trial&) {}
+
+Proposal ConstantRelaxation::advance(const Trial& trial) {
+  return {trial.d + omega_ * trial.residual, omega_, {}};
 }
 
 AitkenRelaxation::AitkenRelaxation(double omega_initial, double omega_min, double omega_max)
@@ -17,12 +20,13 @@ AitkenRelaxation::AitkenRelaxation(double omega_initial, double omega_min, doubl
       omega_(omega_initial),
       previous_(CouplingVector::Zero()) {}
 
-void AitkenRelaxation::reset() {
+void AitkenRelaxation::beginStep() {
   omega_ = omega_initial_;
   has_previous_ = false;
 }
 
-double AitkenRelaxation::advance(CouplingVector& d, const CouplingVector& residual) {
+Proposal AitkenRelaxation::advance(const Trial& trial) {
+  const CouplingVector& residual = trial.residual;
   if (has_previous_) {
     const CouplingVector change = residual - previous_;
     const double factor = -omega_ * previous_.dot(change) / change.squaredNorm();
@@ -33,16 +37,23 @@ double AitkenRelaxation::advance(CouplingVector& d, const CouplingVector& residu
   }
   previous_ = residual;
   has_previous_ = true;
-  d += omega_ * residual;
-  return omega_;
+  return {trial.d + omega_ * residual, omega_, {}};
 }
 
-std::unique_ptr<Accelerator> makeAccelerator(const CouplingSettings& settings) {
-  if (settings.relaxation == Relaxation::kConstant) {
-    return std::make_unique<ConstantRelaxation>(settings.omega_initial);
+std::unique_ptr<Accelerator> makeAccelerator(const CouplingSettings& settings,
+                                             const StepModel& model) {
+  switch (settings.relaxation) {
+    case Relaxation::kConstant:
+      return std::make_unique<ConstantRelaxation>(settings.omega_initial);
+    case Relaxation::kAitken:
+      return std::make_unique<AitkenRelaxation>(settings.omega_initial, settings.omega_min,
+                                                settings.omega_max);
+    case Relaxation::kIqnIls:
+      return std::make_unique<IqnIls>(settings.omega_initial, settings.reuse_steps);
+    case Relaxation::kAddedMass:
+      break;
   }
-  return std::make_unique<AitkenRelaxation>(settings.omega_initial, settings.omega_min,
-                                            settings.omega_max);
+  return std::make_unique<AddedMassNewton>(model, settings.length_scale, settings.operator_every);
 }
 
 }  // namespace monarch_flight

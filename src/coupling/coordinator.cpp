@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <limits>
 
 #include "monarch_flight/coupling/interface_values.h"
 #include "monarch_flight/flight/multibody_dynamics.h"
@@ -28,6 +29,14 @@ CouplingSettings cautious(CouplingSettings settings) {
   return settings;
 }
 
+/// The model, or InputError with every fault of both.
+const CoupledModel& checked(const CoupledModel& model, const CouplingSettings& settings) {
+  std::vector<std::string> faults = model.problems();
+  for (const std::string& fault : settings.problems()) faults.push_back(fault);
+  if (!faults.empty()) throw InputError(faults);
+  return model;
+}
+
 }  // namespace
 
 Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& settings,
@@ -37,13 +46,10 @@ Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& sett
       settings_(settings),
       participants_{&fluid, &flight, &wing},
       run_id_(run_id),
-      free_{model.free.x, model.free.z, model.free.pitch, model.free.wing_pitch} {
-  std::vector<std::string> faults = model.problems();
-  for (const std::string& fault : settings.problems()) faults.push_back(fault);
-  if (!faults.empty()) throw InputError(faults);
-  const double unit = 1.0 / (model.newmark.beta * model.newmark.dt * model.newmark.dt);
-  scales_ << settings.length_scale * unit, settings.length_scale * unit, unit, unit;
-}
+      step_model_(checked(model, settings), settings.length_scale),
+      balance_(model),
+      accelerator_(makeAccelerator(settings, step_model_)),
+      cautious_(makeAccelerator(cautious(settings), step_model_)) {}
 
 CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, const bool& stop) {
   CoupledOutcome outcome;
@@ -86,6 +92,9 @@ void Coordinator::start(const std::vector<StepSink*>& sinks) {
     const Reply reply = ask(role, request, out);
     if (role == Role::kFluid) out.fluid = reply.report;
   }
+  added_mass_ = out.fluid.added_mass;
+  operator_cost_ = out.fluid.operator_cost;
+  accelerator_->forget();
   levels_ = 0;
   force_scale_ = moment_scale_ = 0.0;
   increment_scales_.setZero();
@@ -102,16 +111,15 @@ CommittedStep Coordinator::advance(std::uint32_t step, const bool& stop) {
   CommittedStep out;
   out.step = step;
   out.t = model_.time(step);
-  const Interface prescribed = model_.prescribed(out.t);
   out.prescribed = static_cast<int>(step) <= settings_.prescribed_steps || model_.free.count() == 0;
+  step_model_.begin(committed_, out.t);
 
   Evaluation last;
   if (out.prescribed) {
     if (stop) throw Interrupted();
-    last = evaluate(prescribed, out);
-  } else if (!converge(settings_, prescribed, stop, last, out) &&
-             !converge(cautious(settings_), prescribed, stop, last, out)) {
-    throw NumericalError(notConverged(out));
+    last = evaluate(step_model_.prescribed(), false, out);
+  } else {
+    solve(stop, last, out);
   }
   commit(last, out);
   out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
@@ -119,36 +127,81 @@ CommittedStep Coordinator::advance(std::uint32_t step, const bool& stop) {
   return out;
 }
 
-bool Coordinator::converge(const CouplingSettings& settings, const Interface& prescribed,
-                           const bool& stop, Evaluation& last, CommittedStep& out) {
-  const std::unique_ptr<Accelerator> accelerator = makeAccelerator(settings);
-  // 1. predict
-  CouplingVector d = predictedIncrements();
+void Coordinator::solve(const bool& stop, Evaluation& last, CommittedStep& out) {
+  std::string error;
+  if (attempt(*accelerator_, 1, stop, last, out, error)) return;
+  accelerator_->forget();
+  cautious_->forget();
+  if (!attempt(*cautious_, 2, stop, last, out, error)) {
+    throw NumericalError(notConverged(out, error));
+  }
+}
+
+/// Returns whether it converged; `error` says what a solver complained of. A lost participant ends
+/// the run (ExchangeError): asking again would not bring it back.
+bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, const bool& stop,
+                          Evaluation& last, CommittedStep& out, std::string& error) {
+  const std::size_t first = out.iterations.size();
+  bool converged = false;
+  try {
+    converged =
+        converge(accelerator, number == 1 ? predictedIncrements() : history_[0], stop, last, out);
+  } catch (const NumericalError& e) {
+    error = e.what();
+    IterationRecord failed;  // its number is used up: a key never means two requests
+    failed.step = out.step;
+    failed.iteration = static_cast<std::uint32_t>(out.iterations.size());
+    failed.load_residual = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (step_model_.isFree()[i]) failed.residual[i] = failed.load_residual;
+    }
+    out.iterations.push_back(failed);
+  }
+  for (std::size_t i = first; i < out.iterations.size(); ++i) out.iterations[i].attempt = number;
+  return converged;
+}
+
+bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, const bool& stop,
+                           Evaluation& last, CommittedStep& out) {
+  accelerator.beginStep();
   double first = 0.0;
-  Loads previous;
-  for (int k = 0; k < settings.max_sub_iterations; ++k) {
+  std::optional<Loads> expected;
+  for (int k = 0; k < settings_.max_sub_iterations; ++k) {
     if (stop) throw Interrupted();
-    // 2. exchange
-    last = evaluate(guess(d, prescribed), out);
+    last = evaluate(step_model_.interface(d), accelerator.wantsOperator(operator_cost_), out);
+    last.trial.d = d;
+    judge(expected, last, out);
     IterationRecord& record = out.iterations.back();
-    // 3. residual; the first sub-iteration has no loads to compare with
-    const CouplingVector residual = increments(last.answer) - d;
-    std::copy_n(residual.data(), 4, record.residual.begin());
-    record.load_residual =
-        k == 0 ? 1.0 : std::max(loadChange(last.loads, previous), imbalance(residual, d));
-    previous = last.loads;
-    // 4. converged, hopeless, or better next time
-    const double largest = residual.cwiseAbs().maxCoeff();
-    if (largest <= settings.tolerance && record.load_residual <= settings.load_tolerance)
+    const double largest = last.trial.residual.cwiseAbs().maxCoeff();
+    if (largest <= settings_.tolerance && record.load_residual <= settings_.load_tolerance) {
+      accelerator.endStep(last.trial);
       return true;
+    }
     if (k == 0) first = std::max(largest, 1.0 / kDivergence);
-    if (largest > kDivergence * first) return false;
-    record.relaxation = accelerator->advance(d, residual);
+    if (!(largest <= kDivergence * first)) return false;
+    const Proposal next = accelerator.advance(last.trial);
+    record.relaxation = next.relaxation;
+    d = next.d;
+    expected = next.loads ? next.loads : last.trial.loads;
+    if (!d.allFinite()) return false;
   }
   return false;
 }
 
-Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, CommittedStep& out) {
+/// The residual of a sub-iteration, into its record too. The first one has no loads to compare with.
+void Coordinator::judge(const std::optional<Loads>& expected, Evaluation& evaluation,
+                        CommittedStep& out) {
+  Trial& trial = evaluation.trial;
+  trial.residual = step_model_.increments(evaluation.answer) - trial.d;
+  IterationRecord& record = out.iterations.back();
+  std::copy_n(trial.residual.data(), 4, record.residual.begin());
+  record.load_residual = expected ? std::max(loadChange(trial.loads, *expected),
+                                             imbalance(trial.residual, trial.d))
+                                  : 1.0;
+}
+
+Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, bool want_operator,
+                                              CommittedStep& out) {
   Evaluation evaluation;
   Request& request = evaluation.request;
   request.key = {run_id_, out.step, static_cast<std::uint32_t>(out.iterations.size()),
@@ -156,9 +209,13 @@ Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, CommittedS
   request.t = out.t;
   request.interface = guess;
 
-  const Reply air = ask(Role::kFluid, request, out);
+  Request to_fluid = request;
+  to_fluid.want_operator = want_operator;
+  const Reply air = ask(Role::kFluid, to_fluid, out);
+  out.fluid_evaluations += 1 + (want_operator ? operator_cost_ : 0);
+  evaluation.trial.jacobian = air.jacobian;
   Request with_loads = request;
-  with_loads.loads = evaluation.loads = air.loads;
+  with_loads.loads = evaluation.trial.loads = air.loads;
   const Reply body = ask(Role::kFlight, with_loads, out);
   with_loads.interface.body = body.interface.body;
   const Reply wing = ask(Role::kWing, with_loads, out);
@@ -187,7 +244,16 @@ void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
     if (vortices) out.vortices = std::move(reply.vortices);
   }
   out.interface = request.interface;
-  finish(last.loads, out);
+  finish(last.trial.loads, out);
+  balance(last, out);
+}
+
+void Coordinator::balance(const Evaluation& last, CommittedStep& out) const {
+  const Interface& guess = last.request.interface;
+  const InterfacePower power = balance_.power(out.t, guess, last.answer, last.trial.loads);
+  out.work_fluid = power.fluid * model_.newmark.dt;
+  out.work_structure = power.structure * model_.newmark.dt;
+  out.added_mass_ratio = balance_.addedMassRatio(out.t, guess, added_mass_);
 }
 
 void Coordinator::finish(const Loads& loads, CommittedStep& out) {
@@ -203,7 +269,7 @@ void Coordinator::finish(const Loads& loads, CommittedStep& out) {
   committed_ = out.interface;
   history_[2] = history_[1];
   history_[1] = history_[0];
-  history_[0] = increments(committed_);
+  history_[0] = step_model_.increments(committed_);
   levels_ = std::min(levels_ + 1, 3);
   updateScales(loads);
 }

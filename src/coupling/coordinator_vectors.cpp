@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "monarch_flight/coupling/coordinator.h"
-#include "monarch_flight/flight/flight_solver.h"
 
 namespace monarch_flight {
 namespace {
@@ -17,16 +16,6 @@ double relative(double change, double scale) { return change == 0.0 ? 0.0 : chan
 
 }  // namespace
 
-CouplingVector Coordinator::increments(const Interface& interface) const {
-  const CouplingVector a(interface.body.a.x(), interface.body.a.z(), interface.body.pitch.qdd,
-                         interface.theta_R.qdd);
-  CouplingVector d = CouplingVector::Zero();
-  for (Eigen::Index i = 0; i < 4; ++i) {
-    if (free_[static_cast<std::size_t>(i)]) d(i) = a(i) / scales_(i);
-  }
-  return d;
-}
-
 CouplingVector Coordinator::predictedIncrements() const {
   switch (levels_) {
     case 1:
@@ -36,15 +25,6 @@ CouplingVector Coordinator::predictedIncrements() const {
     default:
       return 3.0 * (history_[0] - history_[1]) + history_[2];
   }
-}
-
-Interface Coordinator::guess(const CouplingVector& increments, const Interface& prescribed) const {
-  const CouplingVector a = increments.cwiseProduct(scales_);
-  Interface next = prescribed;
-  next.body =
-      advancedBody(committed_.body, prescribed.body, model_.free, model_.newmark, a.head<3>());
-  if (model_.free.wing_pitch) next.theta_R = model_.newmark.advance(committed_.theta_R, a(3));
-  return next;
 }
 
 double Coordinator::loadChange(const Loads& loads, const Loads& previous) const {
@@ -64,24 +44,27 @@ void Coordinator::updateScales(const Loads& loads) {
   // Worth noticing: a motion by the tolerance, and the load that moves the wing by it in one step.
   const double noticed = settings_.tolerance;
   const Appendage& wing = model_.insect.right;
+  const CouplingVector& scales = step_model_.scales();
   force_scale_ =
-      std::max({kScaleDecay * force_scale_, loads.force().norm(), wing.m * scales_[0] * noticed});
+      std::max({kScaleDecay * force_scale_, loads.force().norm(), wing.m * scales[0] * noticed});
   moment_scale_ = std::max(
-      {kScaleDecay * moment_scale_, loads.moment().norm(), wing.J(1, 1) * scales_[3] * noticed});
+      {kScaleDecay * moment_scale_, loads.moment().norm(), wing.J(1, 1) * scales[3] * noticed});
   increment_scales_ =
       (kScaleDecay * increment_scales_).cwiseMax(history_[0].cwiseAbs()).cwiseMax(noticed);
   increment_scales_[0] = increment_scales_[1] =
       std::max(increment_scales_[0], increment_scales_[1]);
 }
 
-std::string Coordinator::notConverged(const CommittedStep& step) const {
+std::string Coordinator::notConverged(const CommittedStep& step, const std::string& error) const {
   const std::vector<IterationRecord>& all = step.iterations;
+  const double ratio = balance_.addedMassRatio(step.t, committed_, added_mass_);
   std::ostringstream text;
   text << "step " << step.step << " (t = " << step.t << " s) did not converge in " << all.size()
-       << " sub-iterations, the second half of them with smaller relaxation; last residuals:";
+       << " sub-iterations of two attempts, the second one from a lower predictor and with smaller "
+          "relaxation; last residuals:";
   for (std::size_t i = 0; i < 4; ++i) {
     const double residual = std::abs(all.back().residual[i]);
-    if (!free_[i]) continue;
+    if (!step_model_.isFree()[i]) continue;
     text << ' ' << kNames[i] << ' ' << residual
          << (residual > settings_.tolerance ? " (too large)" : " (good)") << ',';
   }
@@ -95,8 +78,26 @@ std::string Coordinator::notConverged(const CommittedStep& step) const {
     for (double residual : all[i].residual) largest = std::max(largest, std::abs(residual));
     text << ' ' << largest;
   }
-  text << "; lower coupling/omega_initial and coupling/omega_max, shorten the time step, raise "
-          "coupling/max_sub_iterations, or loosen the tolerance that is not met";
+  text << "; added-mass ratio (inertia of the air over that of the insect) " << ratio;
+  if (!error.empty()) text << "; a solver failed: " << error;
+  text << "; " << advice(ratio);
+  return text.str();
+}
+
+/// What the user may change, for the strategy in use.
+std::string Coordinator::advice(double ratio) const {
+  std::ostringstream text;
+  const bool relaxed = settings_.relaxation == Relaxation::kConstant ||
+                       settings_.relaxation == Relaxation::kAitken;
+  if (relaxed) {
+    text << "set coupling/relaxation to added_mass, or lower coupling/omega_initial and "
+            "coupling/omega_max (a constant factor converges below about "
+         << 2.0 / (1.0 + ratio) << " at this ratio), ";
+  }
+  if (settings_.relaxation == Relaxation::kIqnIls) text << "set coupling/relaxation to added_mass, ";
+  if (settings_.relaxation == Relaxation::kAddedMass) text << "lower coupling/operator_every, ";
+  text << "shorten the time step, raise coupling/max_sub_iterations, or loosen the tolerance that is "
+          "not met";
   return text.str();
 }
 

@@ -36,7 +36,7 @@ bool same(const Coordinate& a, const Coordinate& b) {
 
 bool same(const Request& a, const Request& b) {
   return a.key == b.key && a.t == b.t && same(a.interface, b.interface) && same(a.loads, b.loads) &&
-         a.want_fields == b.want_fields;
+         a.want_operator == b.want_operator && a.want_fields == b.want_fields;
 }
 
 bool finite(const Request& request) {
@@ -45,7 +45,9 @@ bool finite(const Request& request) {
 }
 
 bool finite(const Reply& reply) {
-  return interfaceValues(reply.interface).allFinite() && finite(reply.loads);
+  return interfaceValues(reply.interface).allFinite() && finite(reply.loads) &&
+         (!reply.jacobian || (reply.jacobian->velocity.allFinite() &&
+                              reply.jacobian->acceleration.allFinite()));
 }
 
 }  // namespace monarch_flight

@@ -19,10 +19,16 @@ void FluidParticipant::onStart(const Request& request, Reply& reply) {
   reply.report = fluid_->report();
   reply.report.cells = fluid_->cells();
   reply.report.added_mass = fluid_->addedMass();
+  reply.report.operator_cost = fluid_->operatorCost();
 }
 
 void FluidParticipant::onIterate(const Request& request, Reply& reply) {
-  reply.loads = fluid_->evaluate(wingMotion(request));
+  if (request.want_operator) {
+    reply.jacobian.emplace();
+    reply.loads = fluid_->linearise(wingMotion(request), *reply.jacobian);
+  } else {
+    reply.loads = fluid_->evaluate(wingMotion(request));
+  }
   reply.report = fluid_->report();
 }
 

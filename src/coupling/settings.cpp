@@ -32,6 +32,12 @@ std::vector<std::string> CouplingSettings::problems() const {
   if (omega_min > omega_max) {
     faults.push_back(fault("omega_min", omega_min, "at most omega_max", "exchange the two bounds"));
   }
+  if (reuse_steps < 0 || reuse_steps > 20) {
+    faults.push_back(fault("reuse_steps", reuse_steps, "in 0 to 20", "4 is a good start"));
+  }
+  if (operator_every < 1) {
+    faults.push_back(fault("operator_every", operator_every, "at least 1", "100 is usual"));
+  }
   if (!(positive(tolerance) && tolerance < 1.0)) {
     faults.push_back(fault("tolerance", tolerance, "in (0, 1)", "the published value is 1e-8"));
   }

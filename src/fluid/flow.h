@@ -3,6 +3,7 @@
 
 #include "fluid/field.h"
 #include "fluid/frame.h"
+#include "fluid/load_operator.h"
 #include "fluid/momentum.h"
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/fluid/pressure_solver.h"
@@ -27,6 +28,11 @@ class NavierStokes : public FluidModel {
 
   void start(const WingMotion& motion, double dt) override;
   Loads evaluate(const WingMotion& next) override;
+  /// By unit evaluations: exact, for within a step the loads are affine in the wall's velocity.
+  Loads linearise(const WingMotion& next, LoadOperator& jacobian) override {
+    return affineLinearise(*this, next, jacobian);
+  }
+  int operatorCost() const override { return kAffineEvaluations; }
   void commit() override;
   std::vector<char> save() const override;
   void restore(const std::vector<char>& bytes) override;

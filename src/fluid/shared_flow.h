@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "fluid/flow.h"
+#include "fluid/load_operator.h"
 
 namespace monarch_flight {
 
@@ -14,6 +15,11 @@ class SharedFlow : public FluidModel {
 
   void start(const WingMotion& motion, double dt) override;
   Loads evaluate(const WingMotion& next) override;
+  /// By unit evaluations: exact, for within a step the loads are affine in the wall's velocity.
+  Loads linearise(const WingMotion& next, LoadOperator& jacobian) override {
+    return affineLinearise(*this, next, jacobian);
+  }
+  int operatorCost() const override { return kAffineEvaluations; }
   void commit() override;
   std::vector<char> save() const override;
   void restore(const std::vector<char>& bytes) override;

@@ -106,6 +106,7 @@ ParticipantRequest toMessage(const Request& request) {
   out.t = request.t;
   out.interface = toMessage(request.interface);
   out.loads = toMessage(request.loads);
+  out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
   return out;
 }
@@ -116,6 +117,7 @@ Request fromMessage(const ParticipantRequest& request) {
   out.t = request.t;
   out.interface = fromMessage(request.interface);
   out.loads = fromMessage(request.loads);
+  out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
   return out;
 }
@@ -132,6 +134,12 @@ ParticipantReply toMessage(const Reply& reply) {
   const Matrix6d& M = reply.report.added_mass;
   if (!M.isZero(0.0)) {
     for (int i = 0; i < 36; ++i) out.added_mass.push_back(M(i / 6, i % 6));
+  }
+  out.operator_cost = static_cast<std::uint32_t>(reply.report.operator_cost);
+  if (reply.jacobian) {
+    for (const Matrix6d* m : {&reply.jacobian->velocity, &reply.jacobian->acceleration}) {
+      for (int i = 0; i < 36; ++i) out.load_operator.push_back((*m)(i / 6, i % 6));
+    }
   }
   out.wall_s = reply.wall_s;
   out.error = reply.error;
@@ -170,6 +178,14 @@ Reply fromMessage(const ParticipantReply& reply) {
   for (std::size_t i = 0; i < reply.added_mass.size(); ++i) {
     out.report.added_mass(static_cast<int>(i) / 6, static_cast<int>(i) % 6) = reply.added_mass[i];
   }
+  out.report.operator_cost = static_cast<int>(reply.operator_cost);
+  if (!reply.load_operator.empty()) {
+    out.jacobian.emplace();
+    for (std::size_t i = 0; i < reply.load_operator.size(); ++i) {
+      Matrix6d& m = i < 36 ? out.jacobian->velocity : out.jacobian->acceleration;
+      m(static_cast<int>(i % 36) / 6, static_cast<int>(i % 6)) = reply.load_operator[i];
+    }
+  }
   out.wall_s = reply.wall_s;
   out.error = reply.error;
   out.surface.facets.reserve(reply.surface.size());
@@ -187,6 +203,7 @@ SubIteration toMessage(const IterationRecord& record) {
   SubIteration out;
   out.step = record.step;
   out.iteration = record.iteration;
+  out.attempt = record.attempt;
   std::copy(record.residual.begin(), record.residual.end(), out.residual.begin());
   out.load_residual = record.load_residual;
   out.relaxation = record.relaxation;
@@ -198,6 +215,7 @@ IterationRecord fromMessage(const SubIteration& record) {
   IterationRecord out;
   out.step = record.step;
   out.iteration = record.iteration;
+  out.attempt = record.attempt;
   std::copy(record.residual.begin(), record.residual.end(), out.residual.begin());
   out.load_residual = record.load_residual;
   out.relaxation = record.relaxation;
@@ -212,6 +230,10 @@ std::string problem(const ParticipantRequest& request) {
 std::string problem(const ParticipantReply& reply) {
   const std::size_t size = reply.added_mass.size();
   if (size != 0 && size != 36) return "added mass of " + std::to_string(size) + " numbers, not 36";
+  const std::size_t numbers = reply.load_operator.size();
+  if (numbers != 0 && numbers != 72) {
+    return "load operator of " + std::to_string(numbers) + " numbers, not 72";
+  }
   return problem(reply.protocol, reply.key);
 }
 

@@ -77,6 +77,10 @@ StepIterations iterations(const CommittedStep& step, const ros::Time& stamp) {
   out.step = step.step;
   out.converged = step.converged;
   out.prescribed = step.prescribed;
+  out.fluid_evaluations = static_cast<std::uint32_t>(step.fluid_evaluations);
+  out.added_mass_ratio = step.added_mass_ratio;
+  out.work_fluid = step.work_fluid;
+  out.work_structure = step.work_structure;
   out.rows.reserve(step.iterations.size());
   for (const IterationRecord& record : step.iterations) out.rows.push_back(toMessage(record));
   return out;
@@ -246,7 +250,11 @@ diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep
                      : step.prescribed ? "prescribed step"
                                        : "converged";
   coupling.values = {entry("step", step.step), entry("t [s]", step.t),
-                     entry("sub-iterations", static_cast<double>(step.iterations.size()))};
+                     entry("sub-iterations", static_cast<double>(step.iterations.size())),
+                     entry("evaluations of the air", step.fluid_evaluations),
+                     entry("added-mass ratio", step.added_mass_ratio),
+                     entry("work of the air, fluid's side [J]", step.work_fluid),
+                     entry("work of the air, structure's side [J]", step.work_structure)};
   if (!step.iterations.empty()) {
     const IterationRecord& last = step.iterations.back();
     coupling.values.push_back(entry("residual x/c", last.residual[0]));

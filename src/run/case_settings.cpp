@@ -114,8 +114,12 @@ void readTime(Section section, double frequency, Case& c) {
 
 void readCoupling(Section section, double mean_chord, Case& c, Faults& faults) {
   CouplingSettings& s = c.coupling;
-  const std::string relaxation = section.choice("relaxation", {"constant", "aitken"});
-  s.relaxation = relaxation == "constant" ? Relaxation::kConstant : Relaxation::kAitken;
+  const std::string relaxation =
+      section.choice("relaxation", {"constant", "aitken", "iqn_ils", "added_mass"});
+  s.relaxation = relaxation == "constant"  ? Relaxation::kConstant
+                 : relaxation == "aitken"  ? Relaxation::kAitken
+                 : relaxation == "iqn_ils" ? Relaxation::kIqnIls
+                                           : Relaxation::kAddedMass;
   const auto number = [&](const char* key, double& value) {
     keep(value, faults, [&] { return section.number(key, {}); });
   };
@@ -125,6 +129,8 @@ void readCoupling(Section section, double mean_chord, Case& c, Faults& faults) {
   number("omega_initial", s.omega_initial);
   number("omega_min", s.omega_min);
   number("omega_max", s.omega_max);
+  integer("reuse_steps", s.reuse_steps, "4 is usual");
+  integer("operator_every", s.operator_every, "100 is usual");
   number("tolerance", s.tolerance);
   number("load_tolerance", s.load_tolerance);
   integer("max_sub_iterations", s.max_sub_iterations, "60 is usual");

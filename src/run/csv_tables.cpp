@@ -31,7 +31,8 @@ const std::string& FlightTable::header() {
   static const std::string names =
       "t,x,y,z,vx,vy,vz,ax,ay,az,theta_B,theta_B_dot,theta_B_ddot,qw,qx,qy,qz,"
       "phi,psi,theta_R,theta_R_dot,theta_R_ddot,theta_A,fx,fy,fz,mx,my,mz,"
-      "fx_p,fy_p,fz_p,mx_p,my_p,mz_p,FX,FY,FZ,sub_iterations,courant";
+      "fx_p,fy_p,fz_p,mx_p,my_p,mz_p,FX,FY,FZ,sub_iterations,courant,"
+      "fluid_evaluations,added_mass_ratio,work_fluid,work_structure";
   return names;
 }
 
@@ -61,6 +62,10 @@ void FlightTable::append(const CommittedStep& step) {
   put(row_, step.force_I);
   putInteger(row_, step.iterations.size());
   put(row_, step.fluid.courant);
+  putInteger(row_, static_cast<unsigned long>(step.fluid_evaluations));
+  put(row_, step.added_mass_ratio);
+  put(row_, step.work_fluid);
+  put(row_, step.work_structure);
   endRow(row_);
   file_.write(row_);
 }
@@ -68,7 +73,7 @@ void FlightTable::append(const CommittedStep& step) {
 const std::string& IterationTable::header() {
   static const std::string names =
       "step,iteration,t,residual_x,residual_z,residual_theta_B,residual_theta_R,load_residual,"
-      "relaxation,fluid_wall_s";
+      "relaxation,fluid_wall_s,attempt";
   return names;
 }
 
@@ -86,6 +91,7 @@ void IterationTable::append(const CommittedStep& step) {
     put(rows_, record.load_residual);
     put(rows_, record.relaxation);
     put(rows_, record.fluid_wall_s);
+    putInteger(rows_, record.attempt);
     endRow(rows_);
   }
   file_.write(rows_);

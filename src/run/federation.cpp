@@ -72,6 +72,7 @@ CoupledModel makeModel(const Case& c) {
   model.free = c.free;
   model.newmark.dt = c.time.dt;
   model.gravity = c.gravity;
+  model.wind_I = c.air.wind_I;
   model.t_start = c.time.t_start;
   model.steps = c.time.steps;
   model.surface_every = c.output.surface_every;

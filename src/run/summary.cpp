@@ -60,13 +60,26 @@ void Summary::add(const CommittedStep& step) {
   unconverged_ += step.converged ? 0 : 1;
   const double iterations = static_cast<double>(step.iterations.size());
   all_.add(iterations);
-  if (!step.prescribed) solved_.add(iterations);
+  if (!step.prescribed) {
+    solved_.add(iterations);
+    evaluations_.add(step.fluid_evaluations);
+    retried_ += step.iterations.back().attempt > 1 ? 1 : 0;
+    addWork(step);
+  }
+  ratio_.add(step.added_mass_ratio);
   const auto whole = static_cast<std::uint64_t>(std::floor(flaps() + 1e-9));
   if (whole > whole_flaps_ || whole == 0) {
     t_last_ = step.t;
     x_last_ = body.x;
   }
   whole_flaps_ = whole;
+}
+
+void Summary::addWork(const CommittedStep& step) {
+  work_fluid_ += step.work_fluid;
+  work_structure_ += step.work_structure;
+  work_error_ = std::max(work_error_, std::abs(step.work_fluid - step.work_structure));
+  work_scale_ = std::max(work_scale_, std::abs(step.work_fluid));
 }
 
 double Summary::flaps() const {
@@ -100,6 +113,13 @@ std::string Summary::json(const std::string& failure) const {
   j["flaps"] = flaps();
   j["unconverged_steps"] = unconverged_;
   j["sub_iterations"] = {{"mean", subIterations().mean()}, {"max", std::lround(subIterations().max)}};
+  j["retried_steps"] = retried_;
+  j["fluid_evaluations"] = {{"mean", evaluations_.mean()}, {"max", std::lround(evaluations_.max)}};
+  j["added_mass_ratio"] = {{"mean", ratio_.mean()}, {"max", ratio_.max}};
+  j["air_work_J"] = {{"fluid", work_fluid_},
+                     {"structure", work_structure_},
+                     {"largest_error_of_a_step", work_error_},
+                     {"largest_step", work_scale_}};
   j["climb_angle_deg"] = climbAngleDegrees();
   j["speed_m_s"] = meanVelocity().norm();
   j["theta_B_deg"] = degrees(theta_B_);

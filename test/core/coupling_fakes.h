@@ -27,6 +27,13 @@ class LinearAir : public FluidModel {
     const Vector6d load = -M_ * acceleration(next) - C_ * (0.5 * (committed_ + last_));
     return {load.head<3>(), Eigen::Vector3d::Zero(), load.tail<3>(), Eigen::Vector3d::Zero()};
   }
+  Loads linearise(const WingMotion& next, LoadOperator& jacobian) override {
+    ++operators;
+    jacobian.velocity = -0.5 * C_;
+    jacobian.acceleration = -M_;
+    return evaluate(next);
+  }
+  int operatorCost() const override { return operator_cost; }
   void commit() override {
     if (!evaluated_) throw std::logic_error("commit without evaluate");
     committed_ = last_;
@@ -54,7 +61,7 @@ class LinearAir : public FluidModel {
     return v;
   }
 
-  int evaluations = 0, commits = 0;
+  int evaluations = 0, commits = 0, operators = 0, operator_cost = 6;
   std::function<void(int)> fail;  ///< called with the number of the evaluation
 
  private:

@@ -67,12 +67,14 @@ TEST(Conversions, RequestsCrossTheWireBitForBit) {
     request.interface = anyInterface();
     request.loads = anyLoads();
     request.want_fields = i % 2 == 1;
+    request.want_operator = i % 3 == 1;
     const Request back = fromMessage(overTheWire(toMessage(request)));
     EXPECT_EQ(request.key, back.key);
     expectBitwise(request.t, back.t);
     expectBitwise(request.interface, back.interface);
     expectBitwise(request.loads, back.loads);
     EXPECT_EQ(request.want_fields, back.want_fields);
+    EXPECT_EQ(request.want_operator, back.want_operator);
   }
 }
 
@@ -88,6 +90,14 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
     if (i % 2 == 1) {
       for (int k = 0; k < 36; ++k) reply.report.added_mass(k / 6, k % 6) = anyNumber();
     }
+    reply.report.operator_cost = i % 7;
+    if (i % 3 == 1) {
+      reply.jacobian.emplace();
+      for (int k = 0; k < 36; ++k) {
+        reply.jacobian->velocity(k / 6, k % 6) = anyNumber();
+        reply.jacobian->acceleration(k / 6, k % 6) = anyNumber();
+      }
+    }
     reply.wall_s = anyNumber();
     reply.error = i % 3 == 0 ? "why" : "";
     reply.surface.facets.push_back({1.5f, -2.5f, 3e-38f, 4.0f, -0.0f, 6e30f});
@@ -101,6 +111,12 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
     expectBitwise(reply.report.divergence, back.report.divergence);
     EXPECT_EQ(reply.report.cells, back.report.cells);
     expectBitwise(reply.report.added_mass, back.report.added_mass);
+    EXPECT_EQ(reply.report.operator_cost, back.report.operator_cost);
+    ASSERT_EQ(reply.jacobian.has_value(), back.jacobian.has_value());
+    if (reply.jacobian) {
+      expectBitwise(reply.jacobian->velocity, back.jacobian->velocity);
+      expectBitwise(reply.jacobian->acceleration, back.jacobian->acceleration);
+    }
     expectBitwise(reply.wall_s, back.wall_s);
     EXPECT_EQ(reply.error, back.error);
     ASSERT_EQ(1u, back.surface.facets.size());
@@ -115,6 +131,7 @@ TEST(Conversions, IterationRecordsCrossBitForBit) {
   IterationRecord record;
   record.step = 4000000000u;
   record.iteration = 17;
+  record.attempt = 2;
   record.residual = {anyNumber(), anyNumber(), anyNumber(), anyNumber()};
   record.load_residual = anyNumber();
   record.relaxation = anyNumber();
@@ -122,6 +139,7 @@ TEST(Conversions, IterationRecordsCrossBitForBit) {
   const IterationRecord back = fromMessage(overTheWire(toMessage(record)));
   EXPECT_EQ(record.step, back.step);
   EXPECT_EQ(record.iteration, back.iteration);
+  EXPECT_EQ(record.attempt, back.attempt);
   expectBitwise(record.residual, back.residual);
   expectBitwise(record.load_residual, back.load_residual);
   expectBitwise(record.relaxation, back.relaxation);
@@ -134,11 +152,14 @@ TEST(Conversions, UnusableMessagesAreNamed) {
   request.key.phase = 4;
   EXPECT_EQ("unknown phase 4", problem(request));
   request.protocol = kProtocolVersion + 1;
-  EXPECT_NE(std::string::npos, problem(request).find("protocol version 2 instead of 1"));
+  EXPECT_NE(std::string::npos, problem(request).find("protocol version 3 instead of 2"));
   ParticipantReply reply = toMessage(Reply());
   EXPECT_EQ("", problem(reply));
   reply.added_mass.resize(35);
   EXPECT_NE(std::string::npos, problem(reply).find("35"));
+  reply.added_mass.clear();
+  reply.load_operator.resize(71);
+  EXPECT_NE(std::string::npos, problem(reply).find("load operator of 71 numbers"));
 }
 
 TEST(Conversions, NonFiniteStatesAreSeenInEveryMember) {

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "monarch_flight/coupling/accelerator.h"
+#include "monarch_flight/coupling/interface_balance.h"
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/settings.h"
+#include "monarch_flight/coupling/step_model.h"
 
 namespace monarch_flight {
 
@@ -23,10 +25,13 @@ struct CoupledOutcome {
 ///  w^0
 ///  2. exchange: loads for w^k from the fluid, the body's acceleration from the flight, the wing's
 ///     pitch acceleration from the wing: answer w~^k
-///  3. residual: r^k = w~^k - w^k of each free coordinate, dimensionless; change and imbalance
-///     of the loads, relative to their running scales
+///  3. residual: r^k = w~^k - w^k of each free coordinate, dimensionless; imbalance of inertia, and
+///     change of the loads against those that the accelerator predicted (else: the last ones),
+///     relative to their running scales
 ///  4. converged when every component and the loads are within their tolerances; else accelerate:
 ///     w^{k+1} from w^k and r^k, and back to 2
+///  A step that diverges, stalls or makes a solver fail is tried once more: from a predictor of
+///  lower order, the accelerator's memory empty, with smaller relaxation.
 ///  5. commit: every participant keeps w^k, the interface of the last evaluation of the fluid
 ///  6. deliver the committed step to the sinks
 /// During the prescribed start, and when nothing is free, w^0 is the prescribed motion and is kept.
@@ -45,35 +50,42 @@ class Coordinator {
  private:
   struct Evaluation {  // one sub-iteration
     Request request;   // to the fluid: the guess w^k
-    Loads loads;       // for it
+    Trial trial;       // its increments, residual and loads
     Interface answer;  // w~^k
   };
   struct Interrupted {};  // `stop` was seen
 
   void start(const std::vector<StepSink*>& sinks);
   CommittedStep advance(std::uint32_t step, const bool& stop);
-  bool converge(const CouplingSettings& settings, const Interface& prescribed, const bool& stop,
-                Evaluation& last, CommittedStep& out);
-  Evaluation evaluate(const Interface& guess, CommittedStep& out);
+  void solve(const bool& stop, Evaluation& last, CommittedStep& out);
+  bool attempt(Accelerator& accelerator, std::uint32_t number, const bool& stop, Evaluation& last,
+               CommittedStep& out, std::string& error);
+  bool converge(Accelerator& accelerator, CouplingVector d, const bool& stop, Evaluation& last,
+                CommittedStep& out);
+  Evaluation evaluate(const Interface& guess, bool want_operator, CommittedStep& out);
+  void judge(const std::optional<Loads>& expected, Evaluation& evaluation, CommittedStep& out);
   void commit(const Evaluation& last, CommittedStep& out);
+  void balance(const Evaluation& last, CommittedStep& out) const;
   void finish(const Loads& loads, CommittedStep& out);
   void abort(std::uint32_t step) noexcept;
   Reply ask(Role role, const Request& request, CommittedStep& out);
 
-  CouplingVector increments(const Interface& interface) const;
   CouplingVector predictedIncrements() const;
-  Interface guess(const CouplingVector& increments, const Interface& prescribed) const;
   double loadChange(const Loads& loads, const Loads& previous) const;
   double imbalance(const CouplingVector& residual, const CouplingVector& increments) const;
   void updateScales(const Loads& loads);
-  std::string notConverged(const CommittedStep& step) const;
+  std::string notConverged(const CommittedStep& step, const std::string& error) const;
+  std::string advice(double ratio) const;
 
   CoupledModel model_;
   CouplingSettings settings_;
   std::array<Participant*, 3> participants_;
   std::uint64_t run_id_;
-  std::array<bool, 4> free_;  // x, z, pitch, wing pitch
-  CouplingVector scales_;     // L / (beta dt^2): increment d to acceleration, a = d L / (beta dt^2)
+  StepModel step_model_;
+  InterfaceBalance balance_;
+  std::unique_ptr<Accelerator> accelerator_, cautious_;  // of first and of second attempts
+  Matrix6d added_mass_ = Matrix6d::Zero();  // of the fluid, for the ratio
+  int operator_cost_ = 0;                   // of the fluid, in evaluations
   Interface committed_;       // level n
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known

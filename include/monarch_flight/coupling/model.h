@@ -19,6 +19,7 @@ struct CoupledModel {
   FreeCoordinates free = {};
   Newmark newmark = {};      ///< with the time step of the whole run
   double gravity = 9.81;     ///< along +z of NED [m/s^2]
+  Eigen::Vector3d wind_I = Eigen::Vector3d::Zero();  ///< uniform wind, NED [m/s]
   double t_start = 0.0;      ///< time of step 0 [s]
   std::uint32_t steps = 0;   ///< of the whole run
   int surface_every = 0;     ///< committed steps between pictures of the wing's pressure (0: never)

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ struct Request {
   double t = 0.0;        ///< time of level `step` [s]
   Interface interface;   ///< guess of level `step` (START: the initial state)
   Loads loads;           ///< of this sub-iteration; zero in the request to the fluid
+  bool want_operator = false;  ///< ITERATE to the fluid: answer with the loads' Jacobian too
   bool want_fields = false;  ///< COMMIT to the fluid: answer with surface pressure and vortices
 };
 
@@ -43,6 +45,7 @@ struct Reply {
   ExchangeKey key;
   Interface interface;   ///< flight fills body, wing fills theta_R, the rest is as in the request
   Loads loads;           ///< filled by the fluid
+  std::optional<LoadOperator> jacobian;  ///< of the loads, at the request's motion; only when asked for
   FluidReport report;    ///< filled by the fluid
   double wall_s = 0.0;   ///< time spent computing
   std::string error;     ///< empty: good; else why the participant cannot go on

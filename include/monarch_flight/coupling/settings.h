@@ -10,12 +10,15 @@
 
 namespace monarch_flight {
 
-enum class Relaxation { kConstant, kAitken };
+/// Strategies of the sub-iterations: docs/coupling.md.
+enum class Relaxation { kConstant, kAitken, kIqnIls, kAddedMass };
 
 struct CouplingSettings {
-  Relaxation relaxation = Relaxation::kAitken;
+  Relaxation relaxation = Relaxation::kAddedMass;
   double omega_initial = 0.5;     ///< first (or constant) relaxation factor, (0, 1]
   double omega_min = 0.05, omega_max = 1.5;  ///< bounds of Aitken's factor (absolute value)
+  int reuse_steps = 4;            ///< earlier steps that iqn_ils learns from, 0 to 20
+  int operator_every = 100;       ///< steps between load operators asked of a flow that pays for them
   double tolerance = 1e-8;        ///< on each dimensionless displacement residual: x/c, z/c, theta_B, theta_R
   /// On the loads, relative to their running scales: change of the air's force and moment between
   /// sub-iterations, and what inertia is out of balance (the residual of each free acceleration).
@@ -29,7 +32,9 @@ struct CouplingSettings {
 /// One sub-iteration, for iterations.csv, the bag and the diagnosis of a failure.
 struct IterationRecord {
   std::uint32_t step = 0, iteration = 0;
-  std::array<double, 4> residual{};  ///< x/c, z/c, theta_B, theta_R; 0 for a prescribed coordinate
+  std::uint32_t attempt = 1;         ///< at the step: 1 or 2
+  /// x/c, z/c, theta_B, theta_R; 0 for a prescribed coordinate, infinite where a solver failed
+  std::array<double, 4> residual{};
   double load_residual = 0.0;        ///< relative change of the air's loads and imbalance of inertia; 1 at first
   double relaxation = 0.0;           ///< factor applied after this sub-iteration
   double fluid_wall_s = 0.0;
@@ -46,6 +51,14 @@ struct CommittedStep {
   bool converged = true;
   bool prescribed = false;     ///< one of the prescribed start steps (or nothing is free)
   std::vector<IterationRecord> iterations;
+  int fluid_evaluations = 0;   ///< full evaluations of the air, those for its operator included
+  /// Spectral radius of M_s^-1 M_a over the free coordinates: inertia of the air over that of the
+  /// insect; 0 where nothing is free.
+  double added_mass_ratio = 0.0;
+  /// Work that the air does on the right wing in this step: its loads along the motion that the air
+  /// saw, and its generalised forces along the motion that flight and wing answered [J]. They agree
+  /// as far as the step has converged.
+  double work_fluid = 0.0, work_structure = 0.0;
   FluidReport fluid;
   SurfacePressure surface;             ///< empty unless fields were due
   std::vector<VortexPoint> vortices;   ///< empty unless fields were due

@@ -26,14 +26,22 @@ struct VortexPoint {
   float omega_y;     ///< spanwise vorticity, wing axes [1/s]
 };
 
+/// Jacobian of the loads (force; moment) at level n+1, wing axes, with respect to the wing's velocity
+/// (v_W - R_IW^T wind; omega_W) and its acceleration (a_W; alpha_W), each with the others kept.
+struct LoadOperator {
+  Matrix6d velocity = Matrix6d::Zero();      ///< [N s/m, N s, N m s/m, N m s]
+  Matrix6d acceleration = Matrix6d::Zero();  ///< [kg, kg m, kg m, kg m^2]
+};
+
 /// What a flow model says of itself after an evaluation.
 struct FluidReport {
   double courant = 0.0;           ///< largest in-plane Courant number of the step (0: not applicable)
   double divergence = 0.0;        ///< largest relative divergence after projection (0: not applicable)
   /// Constants of the run for summary.json. The fluid participant fills them in its answer to START (from
-  /// FluidModel::cells and addedMass) and the coordinator hands that report on with step 0; later they are 0.
+  /// FluidModel::cells, addedMass, operatorCost) and the coordinator hands that report on with step 0; later they are 0.
   long cells = 0;
   Matrix6d added_mass = Matrix6d::Zero();
+  int operator_cost = 0;  ///< FluidModel::operatorCost
 };
 
 /// The one contract of all flow models. A model owns a committed state at time level n.
@@ -46,6 +54,10 @@ class FluidModel {
   virtual void start(const WingMotion& motion, double dt) = 0;
   /// Loads at level n+1 if the wing moves to `next`. Throws NumericalError on a non-finite result.
   virtual Loads evaluate(const WingMotion& next) = 0;
+  /// As `evaluate`, the same loads bit for bit, with their Jacobian at `next`.
+  virtual Loads linearise(const WingMotion& next, LoadOperator& jacobian) = 0;
+  /// Evaluations that the Jacobian costs on top of that; 0: as good as nothing.
+  virtual int operatorCost() const = 0;
   /// Makes the last evaluated step the committed state. Precondition: evaluate was called since.
   virtual void commit() = 0;
   /// Exact state as bytes and back; bitwise the same evaluations follow.

@@ -32,6 +32,7 @@ class Summary {
 
  private:
   Eigen::Vector3d meanVelocity() const;
+  void addWork(const CommittedStep& step);
   double climbAngleDegrees() const;
   const Range& subIterations() const;
   double flaps() const;
@@ -44,7 +45,9 @@ class Summary {
   std::uint64_t whole_flaps_ = 0;
   double t_first_ = 0.0, t_last_ = 0.0;  // of the mean velocity
   Eigen::Vector3d x_first_ = Eigen::Vector3d::Zero(), x_last_ = Eigen::Vector3d::Zero();
-  Range theta_B_, theta_R_, solved_, all_;
+  Range theta_B_, theta_R_, solved_, all_, evaluations_, ratio_;
+  std::uint32_t retried_ = 0;
+  double work_fluid_ = 0.0, work_structure_ = 0.0, work_error_ = 0.0, work_scale_ = 0.0;
   std::array<double, 3> wall_{};
   double exchange_ = 0.0;
   long cells_ = 0;

@@ -51,6 +51,9 @@ class BladeElement final : public FluidModel {
     return loads;
   }
 
+  Loads linearise(const WingMotion& next, LoadOperator& jacobian) override;
+  int operatorCost() const override { return 0; }
+
   void commit() override {
     if (!evaluated_) throw std::logic_error("quasi-steady fluid: commit without an evaluation");
     committed_jump_ = next_jump_;
@@ -153,6 +156,25 @@ SectionLoad BladeElement::rotation(const Strip& s, double ux, double omega_y) co
   const double fourth = 0.25 * (std::pow(ahead, 4) + std::pow(behind, 4));
   load.my -= damping_ * fourth * std::abs(omega_y) * omega_y * s.dy;
   return load;
+}
+
+// Velocity: central differences of the load, the added mass's part of it included. Acceleration:
+// minus the added mass, exactly.
+Loads BladeElement::linearise(const WingMotion& next, LoadOperator& jacobian) {
+  constexpr double kStep = 1e-4, kRateStep = 1e-2;  // [m/s], [rad/s]: far below those of a flight
+  for (int i = 0; i < 6; ++i) {
+    Vector6d side[2];
+    for (int s = 0; s < 2; ++s) {
+      WingMotion motion = next;
+      (i < 3 ? motion.v_W(i) : motion.omega_W(i - 3)) +=
+          (s == 0 ? 1.0 : -1.0) * (i < 3 ? kStep : kRateStep);
+      const Loads loads = loadsOf(motion);
+      side[s] << loads.force(), loads.moment();
+    }
+    jacobian.velocity.col(i) = (side[0] - side[1]) / (2.0 * (i < 3 ? kStep : kRateStep));
+  }
+  jacobian.acceleration = -added_mass_;
+  return evaluate(next);
 }
 
 Loads BladeElement::loadsOf(const WingMotion& motion) {

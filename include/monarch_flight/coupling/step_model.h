@@ -1,0 +1,53 @@
+#pragma once
+#include <Eigen/Dense>
+#include <array>
+#include <optional>
+
+#include "monarch_flight/coupling/model.h"
+#include "monarch_flight/fluid/fluid_model.h"
+#include "monarch_flight/flight/flight_solver.h"
+#include "monarch_flight/wing/wing_pitch_solver.h"
+
+namespace monarch_flight {
+
+/// Of x, z, theta_B, theta_R, dimensionless; 0 where a coordinate is prescribed.
+using CouplingVector = Eigen::Vector4d;
+
+/// One step from level n to n+1 in the coordinator's unknowns: increments d, by which the
+/// accelerations of the free coordinates displace level n+1, q = q(a = 0) + L d. With them the
+/// coordinator's own copy of flight and wing, which predicts their answers without an exchange
+/// (microseconds); what counts for convergence are the answers of the participants themselves.
+class StepModel {
+ public:
+  /// `length_scale` makes displacements dimensionless [m].
+  StepModel(const CoupledModel& model, double length_scale);
+
+  /// Sets the step: the committed level n and the prescribed motion at time t [s] of level n+1.
+  void begin(const Interface& committed, double t);
+  const Interface& prescribed() const { return prescribed_; }
+  const std::array<bool, 4>& isFree() const { return free_; }
+  /// Length or 1 over beta dt^2: d times it is an acceleration [m/s^2, rad/s^2].
+  const CouplingVector& scales() const { return scales_; }
+
+  CouplingVector increments(const Interface& interface) const;
+  /// Level n+1 for these increments, by Newmark; what is not free follows the prescribed motion.
+  Interface interface(const CouplingVector& increments) const;
+  /// H(d) - d for these loads, H being the answer of flight and wing to the interface of d.
+  CouplingVector residual(const CouplingVector& increments, const Loads& loads) const;
+  /// (v_W - R_IW^T wind; omega_W) and (a_W; alpha_W) of the interface of d: what the loads see.
+  void airMotion(const CouplingVector& increments, Vector6d& velocity,
+                 Vector6d& acceleration) const;
+
+ private:
+  JointAngles angles(const Coordinate& theta_R) const;
+
+  CoupledModel model_;
+  std::array<bool, 4> free_;  // x, z, pitch, wing pitch
+  CouplingVector scales_;
+  FlightSolver flight_;
+  std::optional<WingPitchSolver> wing_;  // empty when the pitch is prescribed
+  Interface committed_, prescribed_;
+  JointAngles prescribed_angles_;
+};
+
+}  // namespace monarch_flight
