@@ -2,23 +2,39 @@
 
 #include <cmath>
 
+#include "core/coupling_fakes.h"
 #include "monarch_flight/coupling/accelerator.h"
 
 namespace monarch_flight {
 namespace {
 
-/// Iterates d = A d + b from 0 with a strategy; number of evaluations until |r| < tolerance, or
-/// `limit`.
+/// Advances d in place; returns the factor applied.
+double advance(Accelerator& accelerator, CouplingVector& d, const CouplingVector& residual) {
+  Trial trial;
+  trial.d = d;
+  trial.residual = residual;
+  const Proposal next = accelerator.advance(trial);
+  d = next.d;
+  return next.relaxation;
+}
+
+/// Iterates d = A d + b from `start` with a strategy; number of evaluations until |r| < tolerance,
+/// or `limit`.
 int evaluations(Accelerator& accelerator, const Eigen::Matrix4d& A, const Eigen::Vector4d& b,
-                double tolerance, int limit, CouplingVector* solution = nullptr) {
-  CouplingVector d = CouplingVector::Zero();
+                double tolerance, int limit, CouplingVector* solution = nullptr,
+                const CouplingVector& start = CouplingVector::Zero()) {
+  CouplingVector d = start;
+  accelerator.beginStep();
   for (int k = 1; k <= limit; ++k) {
-    const CouplingVector residual = A * d + b - d;
-    if (residual.cwiseAbs().maxCoeff() < tolerance) {
+    Trial trial;
+    trial.d = d;
+    trial.residual = A * d + b - d;
+    if (trial.residual.cwiseAbs().maxCoeff() < tolerance) {
       if (solution != nullptr) *solution = d;
+      accelerator.endStep(trial);
       return k;
     }
-    accelerator.advance(d, residual);
+    d = accelerator.advance(trial).d;
   }
   return limit;
 }
@@ -39,7 +55,7 @@ TEST(ConstantRelaxation, ContractsAsItsTheorySays) {
   for (int k = 1; k <= 10; ++k) {
     CouplingVector residual = CouplingVector::Zero();
     residual(0) = lambda * d(0) + b - d(0);
-    EXPECT_EQ(accelerator.advance(d, residual), 0.5);
+    EXPECT_EQ(advance(accelerator, d, residual), 0.5);
     EXPECT_NEAR(d(0), solution * (1.0 - std::pow(1.0 + 0.5 * (lambda - 1.0), k)), 1e-15);
   }
 }
@@ -78,45 +94,100 @@ TEST(Aitken, ConvergesForSeveralCoordinates) {
 TEST(Aitken, FirstFactorAndResetTakeTheInitialOne) {
   AitkenRelaxation accelerator(0.3, 0.05, 1.5);
   CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::UnitX();
-  EXPECT_EQ(accelerator.advance(d, residual), 0.3);
+  EXPECT_EQ(advance(accelerator, d, residual), 0.3);
   residual(0) = 0.5;
-  EXPECT_DOUBLE_EQ(accelerator.advance(d, residual), 0.6);
-  accelerator.reset();
-  EXPECT_EQ(accelerator.advance(d, residual), 0.3);
+  EXPECT_DOUBLE_EQ(advance(accelerator, d, residual), 0.6);
+  accelerator.beginStep();
+  EXPECT_EQ(advance(accelerator, d, residual), 0.3);
 }
 
 TEST(Aitken, StaysWithinItsBounds) {
   CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::UnitX();
   AitkenRelaxation high(0.5, 0.05, 1.5);
-  high.advance(d, residual);
+  advance(high, d, residual);
   residual(0) = 0.99;  // would be 50
-  EXPECT_EQ(high.advance(d, residual), 1.5);
+  EXPECT_EQ(advance(high, d, residual), 1.5);
   AitkenRelaxation low(0.5, 0.05, 1.5);
   residual(0) = 1.0;
-  low.advance(d, residual);
+  advance(low, d, residual);
   residual(0) = -99.0;  // would be 0.005
-  EXPECT_EQ(low.advance(d, residual), 0.05);
+  EXPECT_EQ(advance(low, d, residual), 0.05);
   AitkenRelaxation negative(0.5, 0.05, 1.5);
   residual(0) = 1.0;
-  negative.advance(d, residual);
+  advance(negative, d, residual);
   residual(0) = 1.01;  // a growing residual turns the sign: would be -50
-  EXPECT_EQ(negative.advance(d, residual), -1.5);
+  EXPECT_EQ(advance(negative, d, residual), -1.5);
 }
 
 TEST(Aitken, KeepsItsFactorWhenTheResidualDoesNotChange) {
   AitkenRelaxation accelerator(0.5, 0.05, 1.5);
   CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::Ones();
-  accelerator.advance(d, residual);
-  EXPECT_EQ(accelerator.advance(d, residual), 0.5);
+  advance(accelerator, d, residual);
+  EXPECT_EQ(advance(accelerator, d, residual), 0.5);
+  EXPECT_TRUE(d.allFinite());
+}
+
+/// Not normal; eigenvalues -10.8, -1.6, -0.9, -0.4: an added mass ten times the structure's.
+Eigen::Matrix4d heavyAir() {
+  Eigen::Matrix4d A;
+  A << -10.8, 0.3, 0.0, 0.5, 0.0, -1.6, 0.2, 0.0, 0.0, 0.0, -0.9, 0.1, 0.0, 0.0, 0.0, -0.4;
+  return A;
+}
+const Eigen::Vector4d kForce(1.0, -2.0, 0.5, 3.0);
+
+TEST(IqnIls, SolvesALinearProblemOfFourUnknownsInSix) {
+  // The start, one relaxed trial, then each difference spans one more direction.
+  IqnIls accelerator(0.1, 0);
+  CouplingVector solution;
+  EXPECT_LE(evaluations(accelerator, heavyAir(), kForce, 1e-10, 60, &solution), 6);
+  EXPECT_LT((solution - (Eigen::Matrix4d::Identity() - heavyAir()).inverse() * kForce).norm(),
+            1e-9);
+}
+
+TEST(IqnIls, ReuseMakesTheNextStepImmediate) {
+  IqnIls reusing(0.1, 2), fresh(0.1, 0);
+  for (IqnIls* accelerator : {&reusing, &fresh}) {
+    evaluations(*accelerator, heavyAir(), kForce, 1e-10, 60);
+  }
+  const Eigen::Vector4d next(0.7, -1.0, 1.5, -3.0);
+  EXPECT_EQ(evaluations(reusing, heavyAir(), next, 1e-9, 60), 2);
+  EXPECT_GT(evaluations(fresh, heavyAir(), next, 1e-9, 60), 4);
+  reusing.forget();
+  EXPECT_GT(evaluations(reusing, heavyAir(), next, 1e-9, 60), 4);
+}
+
+TEST(IqnIls, OldDifferencesGo) {
+  IqnIls accelerator(0.1, 1);
+  evaluations(accelerator, heavyAir(), kForce, 1e-10, 60);
+  const CouplingVector solved = (Eigen::Matrix4d::Identity() - heavyAir()).inverse() * kForce;
+  // Two steps that begin at their solution teach nothing and outlive the memory.
+  EXPECT_EQ(evaluations(accelerator, heavyAir(), kForce, 1e-9, 60, nullptr, solved), 1);
+  EXPECT_EQ(evaluations(accelerator, heavyAir(), kForce, 1e-9, 60, nullptr, solved), 1);
+  EXPECT_GT(evaluations(accelerator, heavyAir(), -kForce, 1e-9, 60), 4);
+}
+
+TEST(IqnIls, PrescribedCoordinatesAndRepeatedResidualsDoNoHarm) {
+  IqnIls accelerator(0.5, 3);
+  EXPECT_LE(evaluations(accelerator, scalar(-10.8), kScalarForce, 1e-12, 60), 3);
+  CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::Ones();
+  accelerator.forget();
+  accelerator.beginStep();
+  advance(accelerator, d, residual);
+  EXPECT_EQ(advance(accelerator, d, residual), 0.5);  // the same residual again: nothing learnt
   EXPECT_TRUE(d.allFinite());
 }
 
 TEST(Settings, NameTheStrategy) {
-  CouplingSettings settings;
-  settings.relaxation = Relaxation::kConstant;
-  EXPECT_NE(dynamic_cast<ConstantRelaxation*>(makeAccelerator(settings).get()), nullptr);
-  settings.relaxation = Relaxation::kAitken;
-  EXPECT_NE(dynamic_cast<AitkenRelaxation*>(makeAccelerator(settings).get()), nullptr);
+  const StepModel model(testing::coupledModel({true, true, true, true}, 1), 0.02);
+  const auto names = [&](Relaxation relaxation, auto* type) {
+    CouplingSettings settings;
+    settings.relaxation = relaxation;
+    return dynamic_cast<decltype(type)>(makeAccelerator(settings, model).get()) != nullptr;
+  };
+  EXPECT_TRUE(names(Relaxation::kConstant, static_cast<ConstantRelaxation*>(nullptr)));
+  EXPECT_TRUE(names(Relaxation::kAitken, static_cast<AitkenRelaxation*>(nullptr)));
+  EXPECT_TRUE(names(Relaxation::kIqnIls, static_cast<IqnIls*>(nullptr)));
+  EXPECT_TRUE(names(Relaxation::kAddedMass, static_cast<AddedMassNewton*>(nullptr)));
 }
 
 TEST(Settings, EveryFaultAtOnce) {
@@ -129,9 +200,11 @@ TEST(Settings, EveryFaultAtOnce) {
   bad.load_tolerance = 2.0;
   bad.max_sub_iterations = 0;
   bad.prescribed_steps = -1;
+  bad.reuse_steps = 21;
+  bad.operator_every = 0;
   bad.length_scale = -0.02;
   const auto faults = bad.problems();
-  EXPECT_EQ(faults.size(), 8u);
+  EXPECT_EQ(faults.size(), 10u);
   EXPECT_NE(faults[0].find("coupling/omega_initial = 0: must be in (0, 1]"), std::string::npos);
   CouplingSettings crossed;
   crossed.omega_min = 0.9;

@@ -110,7 +110,7 @@ TEST_P(AddedMass, FlightIsTheMonolithicOne) {
   EXPECT_GT(std::abs(exact.body.pitch.q - prescribed.body.pitch.q), 0.005);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ratios, AddedMass, ::testing::Values(0.0, 0.5, 1.0, 2.0, 5.0));
+INSTANTIATE_TEST_SUITE_P(Ratios, AddedMass, ::testing::Values(0.0, 0.5, 1.0, 2.0, 5.0, 20.0));
 
 class Coordination : public ::testing::Test {
  protected:
@@ -262,17 +262,21 @@ TEST_F(Coordination, ADivergingStepIsRetriedWithSmallerRelaxation) {
             1e-7);
   const auto& records = f.sink.steps.back().iterations;
   EXPECT_EQ(records.front().relaxation, 1.0);
+  EXPECT_EQ(records.front().attempt, 1u);
   EXPECT_EQ(records[records.size() - 2].relaxation, 0.25);
+  EXPECT_EQ(records.back().attempt, 2u);
 }
 
 TEST_F(Coordination, AnUnconvergedStepEndsTheRunWithADiagnosis) {
   CouplingSettings settings = f_.settings;
+  settings.relaxation = Relaxation::kAitken;
   settings.max_sub_iterations = 3;
   Federation f = with(settings);
   const CoupledOutcome outcome = f.run();
   EXPECT_FALSE(outcome.complete);
   for (const char* words : {"step 11", "did not converge in 6 sub-iterations", "theta_R",
-                            "(too large)", "coupling/max_sub_iterations"}) {
+                            "(too large)", "added-mass ratio", "relaxation to added_mass",
+                            "coupling/max_sub_iterations"}) {
     EXPECT_NE(outcome.failure.find(words), std::string::npos) << outcome.failure;
   }
   EXPECT_EQ(f.sink.failure, outcome.failure);

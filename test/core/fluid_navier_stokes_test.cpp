@@ -164,6 +164,47 @@ TEST_F(FlappingPlate, LoadsAreAffineInTheInterfaceVelocity) {
   }
 }
 
+TEST_F(FlappingPlate, LoadOperatorPredictsTheLoadsOfTheStep) {
+  advance(3);
+  LoadOperator jacobian;
+  const Loads base = flow_->evaluate(next()), with = flow_->linearise(next(), jacobian);
+  EXPECT_EQ(base.force(), with.force());
+  EXPECT_EQ(base.moment(), with.moment());
+  EXPECT_TRUE(jacobian.acceleration.isZero(0.0));
+  Vector6d du, predicted, found;
+  du << 0.3, -0.5, 0.7, -0.2, 0.4, 0.6;
+  const Loads l = flow_->evaluate(moved(next(), du));
+  predicted << base.force(), base.moment();
+  predicted += jacobian.velocity * du;
+  found << l.force(), l.moment();
+  EXPECT_LT((predicted - found).norm(), 1e-10 * found.norm());
+  // What is committed after it is the step at `next`, not one of the unit evaluations.
+  const auto plain = makeNavierStokes(Planform::ellipse(1.0, 2.0, 0.3), thinAir(), smallGrid());
+  plain->restore(flow_->save());
+  plain->evaluate(next());
+  plain->commit();
+  flow_->linearise(next(), jacobian);
+  flow_->commit();
+  EXPECT_TRUE(plain->save() == flow_->save());
+}
+
+TEST_F(FlappingPlate, AStepRestoredAHundredTimesIsTheSameStep) {
+  advance(2);
+  const std::vector<char> before = flow_->save();
+  const Loads first = flow_->evaluate(next());
+  flow_->commit();
+  const std::vector<char> after = flow_->save();
+  for (int i = 0; i < 100; ++i) {
+    flow_->restore(before);
+    if (i % 10 == 0) flow_->evaluate(moved(next(), Vector6d::Constant(0.1 * i)));
+    const Loads again = flow_->evaluate(next());
+    ASSERT_EQ(first.force(), again.force()) << "repetition " << i;
+    ASSERT_EQ(first.moment(), again.moment());
+    flow_->commit();
+    ASSERT_TRUE(flow_->save() == after) << "repetition " << i;
+  }
+}
+
 TEST_F(FlappingPlate, EvaluationsArePureAndStateIsRestoredBitwise) {
   advance(3);
   const WingMotion base = next();

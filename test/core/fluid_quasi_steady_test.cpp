@@ -300,6 +300,29 @@ TEST(QuasiSteadyContract, EvaluationIsAPureFunctionAndStateRestores) {
   EXPECT_TRUE(model->vortices(0.0, 10).empty());
 }
 
+TEST(QuasiSteadyContract, LoadOperatorIsTheJacobianOfTheLoads) {
+  std::mt19937 generator(23);
+  for (auto variant : {kSane, kWhitney}) {
+    const auto model = makeQuasiSteady(Planform::ellipse(0.03, 0.06, 0.3), air(), variant);
+    const WingMotion m = randomMotion(generator);
+    const Vector6d base = wrench(loadsOf(*model, m));
+    LoadOperator jacobian;
+    EXPECT_EQ(wrench(model->linearise(m, jacobian)), base);
+    EXPECT_EQ(jacobian.acceleration, Matrix6d(-model->addedMass()));
+    Vector6d du, da;
+    du << 1e-3, -2e-3, 3e-3, 0.1, -0.2, 0.15;
+    da << 10.0, -20.0, 5.0, 300.0, 100.0, -200.0;
+    WingMotion moved = m;
+    moved.v_W += du.head<3>();
+    moved.omega_W += du.tail<3>();
+    moved.a_W += da.head<3>();
+    moved.alpha_W += da.tail<3>();
+    const Vector6d change = wrench(model->evaluate(moved)) - base;
+    const Vector6d predicted = jacobian.velocity * du + jacobian.acceleration * da;
+    EXPECT_LT((change - predicted).norm(), 3e-3 * change.norm());
+  }
+}
+
 TEST(QuasiSteadyContract, SurfacePressureCarriesTheNormalForce) {
   const Planform plan = Planform::rectangle(0.02, 0.05, 0.3);
   const auto model = makeQuasiSteady(plan, air(), kSane);

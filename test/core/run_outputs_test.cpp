@@ -77,6 +77,10 @@ CommittedStep stepAt(std::uint32_t n) {
   s.fluid.courant = 0.875;
   s.wall_s = {0.5, 0.25, 0.125};
   s.exchange_s = 0.0625;
+  s.fluid_evaluations = n < 25 ? 10 : 33;
+  s.added_mass_ratio = n == 25 ? 2.125 : 1.125;
+  s.work_fluid = -0.25;
+  s.work_structure = n == 25 ? -0.5 : -0.375;
   s.prescribed = n <= 2;
   if (n == 0) {
     s.fluid.cells = 42;
@@ -84,7 +88,7 @@ CommittedStep stepAt(std::uint32_t n) {
     return s;
   }
   for (std::uint32_t k = 0; k < (n <= 2 ? 1 : 3 + n % 2); ++k)
-    s.iterations.push_back({n, k, {1e-3, 2e-3, 3e-3, 4e-3}, 5e-3, 0.5, 0.7});
+    s.iterations.push_back({n, k, k > 2 ? 2u : 1u, {1e-3, 2e-3, 3e-3, 4e-3}, 5e-3, 0.5, 0.7});
   return s;
 }
 
@@ -117,7 +121,7 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
       rows[0],
       "t,x,y,z,vx,vy,vz,ax,ay,az,theta_B,theta_B_dot,theta_B_ddot,qw,qx,qy,qz,phi,psi,theta_R,"
       "theta_R_dot,theta_R_ddot,theta_A,fx,fy,fz,mx,my,mz,fx_p,fy_p,fz_p,mx_p,my_p,mz_p,FX,FY,"
-      "FZ,sub_iterations,courant");
+      "FZ,sub_iterations,courant,fluid_evaluations,added_mass_ratio,work_fluid,work_structure");
   const double b = step.interface.body.pitch.q, r = step.interface.theta_R.q;
   const std::vector<double> expected = {step.t, step.interface.body.x[0],
                                         0,      step.interface.body.x[2],
@@ -138,7 +142,9 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
                                         4,      5,
                                         6,      7,
                                         8,      9,
-                                        4,      0.875};
+                                        4,      0.875,
+                                        10,     1.125,
+                                        -0.25,  -0.375};
   const auto row = numbers(rows[2]);
   ASSERT_EQ(row.size(), expected.size());
   for (std::size_t i = 0; i < row.size(); ++i) {
@@ -173,9 +179,9 @@ TEST_F(RunFiles, IterationTableHasARowPerSubIteration) {
   EXPECT_EQ(
       rows[0],
       "step,iteration,t,residual_x,residual_z,residual_theta_B,residual_theta_R,load_residual,"
-      "relaxation,fluid_wall_s");
+      "relaxation,fluid_wall_s,attempt");
   EXPECT_EQ(numbers(rows[6]),
-            (std::vector<double>{3, 3, stepAt(3).t, 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 0.5, 0.7}));
+            (std::vector<double>{3, 3, stepAt(3).t, 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 0.5, 0.7, 2}));
 }
 
 TEST_F(RunFiles, SummaryHasEveryKeyAndTheRightNumbers) {
@@ -199,6 +205,15 @@ TEST_F(RunFiles, SummaryHasEveryKeyAndTheRightNumbers) {
   // steps 3 .. 25 were solved: 12 odd ones with 4, 11 even ones with 3 sub-iterations
   EXPECT_NEAR(j.at("sub_iterations").at("mean").get<double>(), (12 * 4 + 11 * 3) / 23.0, 1e-12);
   EXPECT_EQ(j.at("sub_iterations").at("max"), 4);
+  EXPECT_EQ(j.at("retried_steps"), 12);
+  EXPECT_NEAR(j.at("fluid_evaluations").at("mean").get<double>(), (22 * 10 + 33) / 23.0, 1e-12);
+  EXPECT_EQ(j.at("fluid_evaluations").at("max"), 33);
+  EXPECT_NEAR(j.at("added_mass_ratio").at("mean").get<double>(), 1.125 + 1.0 / 26.0, 1e-12);
+  EXPECT_EQ(j.at("added_mass_ratio").at("max"), 2.125);
+  EXPECT_EQ(j.at("air_work_J").at("fluid"), -0.25 * 23);
+  EXPECT_EQ(j.at("air_work_J").at("structure"), -0.375 * 22 - 0.5);
+  EXPECT_EQ(j.at("air_work_J").at("largest_error_of_a_step"), 0.25);
+  EXPECT_EQ(j.at("air_work_J").at("largest_step"), 0.25);
   EXPECT_NEAR(j.at("climb_angle_deg").get<double>(), std::atan2(1.0, 2.0) * 180 / kPi, 1e-9);
   EXPECT_NEAR(j.at("speed_m_s").get<double>(), std::sqrt(5.0), 1e-12);
   const double degree = 180.0 / kPi;
