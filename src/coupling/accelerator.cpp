@@ -20,7 +20,7 @@ AitkenRelaxation::AitkenRelaxation(double omega_initial, double omega_min, doubl
       omega_(omega_initial),
       previous_(CouplingVector::Zero()) {}
 
-void AitkenRelaxation::beginStep() {
+void AitkenRelaxation::beginStep(std::uint32_t) {
   omega_ = omega_initial_;
   has_previous_ = false;
 }

@@ -9,7 +9,7 @@ constexpr int kNewton = 4;            // steps at most
 constexpr double kSolved = 1e-14;     // change of d at which the predicted problem is solved
 constexpr double kDifference = 1e-5;  // of d, for the Jacobian of flight and wing
 constexpr double kNoise = 1e-11;      // relative change of the loads that teaches nothing
-constexpr int kRest = 10;             // steps between operators asked for out of turn, at least
+constexpr std::uint32_t kRest = 10;   // steps between operators asked for out of turn, at least
 
 Vector6d vector(const Loads& loads) {
   Vector6d all;
@@ -22,22 +22,25 @@ Vector6d vector(const Loads& loads) {
 AddedMassNewton::AddedMassNewton(const StepModel& model, double length_scale, int operator_every)
     : model_(model), length_scale_(length_scale), operator_every_(operator_every) {}
 
-void AddedMassNewton::beginStep() {
+void AddedMassNewton::beginStep(std::uint32_t step) {
   previous_.reset();
-  trials_ = 0;
+  advances_ = 0;
+  step_ = step;
 }
 
 void AddedMassNewton::forget() {
-  beginStep();
+  previous_.reset();
   operator_.reset();
 }
 
-// The second step asks again: a flow that starts with another time scheme has another operator.
+// One more trial costs less than an operator, so it takes a bad step to ask out of turn. A flow that
+// starts with a time scheme of lower order has another operator from its second step on.
 bool AddedMassNewton::wantsOperator(int operator_cost) const {
   if (!operator_) return true;
-  if (trials_ > 0) return false;
-  return operator_cost == 0 || fetched_ == 1 || age_ >= operator_every_ ||
-         (missed_ && age_ >= kRest);
+  if (advances_ > 0) return false;
+  const std::uint32_t age = step_ - fetched_;
+  return operator_cost == 0 || fetched_ == 1 ||
+         age >= static_cast<std::uint32_t>(operator_every_) || (missed_ && age >= kRest);
 }
 
 /// The fluid's own operator, or Broyden's update of the one at hand by the change from the last
@@ -45,8 +48,7 @@ bool AddedMassNewton::wantsOperator(int operator_cost) const {
 void AddedMassNewton::learn(const Trial& trial) {
   if (trial.jacobian) {
     operator_ = trial.jacobian;
-    age_ = 0;
-    ++fetched_;
+    fetched_ = step_;
   } else if (previous_ && operator_) {
     Vector6d u, a, u_before, a_before;
     model_.airMotion(trial.d, u, a);
@@ -92,7 +94,7 @@ Eigen::Matrix4d AddedMassNewton::residualJacobian(const Trial& trial,
 
 Proposal AddedMassNewton::advance(const Trial& trial) {
   learn(trial);
-  ++trials_;
+  ++advances_;
   const CouplingVector base = model_.residual(trial.d, trial.loads);
   const CouplingVector offset = trial.residual - base;  // participants may differ from their copy
   const Eigen::PartialPivLU<Eigen::Matrix4d> factor(residualJacobian(trial, base));
@@ -109,8 +111,7 @@ Proposal AddedMassNewton::advance(const Trial& trial) {
 
 void AddedMassNewton::endStep(const Trial& last) {
   learn(last);
-  missed_ = trials_ > 1;
-  ++age_;
+  missed_ = advances_ > 2;
 }
 
 }  // namespace monarch_flight

@@ -163,7 +163,7 @@ bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, const 
 
 bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, const bool& stop,
                            Evaluation& last, CommittedStep& out) {
-  accelerator.beginStep();
+  accelerator.beginStep(out.step);
   double first = 0.0;
   std::optional<Loads> expected;
   for (int k = 0; k < settings_.max_sub_iterations; ++k) {

@@ -14,7 +14,7 @@ constexpr double kIndependent = 1e-3;
 IqnIls::IqnIls(double omega_initial, int reuse)
     : omega_initial_(omega_initial), reuse_(std::clamp(reuse, 0, kMaxReuse)) {}
 
-void IqnIls::beginStep() {
+void IqnIls::beginStep(std::uint32_t) {
   previous_.reset();
   for (int i = 0; i < count_; ++i) ++differences_[static_cast<std::size_t>(i)].age;
   while (count_ > 0 && differences_[static_cast<std::size_t>(count_ - 1)].age > reuse_) --count_;

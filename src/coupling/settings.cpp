@@ -36,7 +36,7 @@ std::vector<std::string> CouplingSettings::problems() const {
     faults.push_back(fault("reuse_steps", reuse_steps, "in 0 to 20", "4 is a good start"));
   }
   if (operator_every < 1) {
-    faults.push_back(fault("operator_every", operator_every, "at least 1", "100 is usual"));
+    faults.push_back(fault("operator_every", operator_every, "at least 1", "250 is usual"));
   }
   if (!(positive(tolerance) && tolerance < 1.0)) {
     faults.push_back(fault("tolerance", tolerance, "in (0, 1)", "the published value is 1e-8"));

@@ -130,7 +130,7 @@ void readCoupling(Section section, double mean_chord, Case& c, Faults& faults) {
   number("omega_min", s.omega_min);
   number("omega_max", s.omega_max);
   integer("reuse_steps", s.reuse_steps, "4 is usual");
-  integer("operator_every", s.operator_every, "100 is usual");
+  integer("operator_every", s.operator_every, "250 is usual");
   number("tolerance", s.tolerance);
   number("load_tolerance", s.load_tolerance);
   integer("max_sub_iterations", s.max_sub_iterations, "60 is usual");

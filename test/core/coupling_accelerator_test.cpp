@@ -24,7 +24,7 @@ int evaluations(Accelerator& accelerator, const Eigen::Matrix4d& A, const Eigen:
                 double tolerance, int limit, CouplingVector* solution = nullptr,
                 const CouplingVector& start = CouplingVector::Zero()) {
   CouplingVector d = start;
-  accelerator.beginStep();
+  accelerator.beginStep(1);
   for (int k = 1; k <= limit; ++k) {
     Trial trial;
     trial.d = d;
@@ -97,7 +97,7 @@ TEST(Aitken, FirstFactorAndResetTakeTheInitialOne) {
   EXPECT_EQ(advance(accelerator, d, residual), 0.3);
   residual(0) = 0.5;
   EXPECT_DOUBLE_EQ(advance(accelerator, d, residual), 0.6);
-  accelerator.beginStep();
+  accelerator.beginStep(1);
   EXPECT_EQ(advance(accelerator, d, residual), 0.3);
 }
 
@@ -171,7 +171,7 @@ TEST(IqnIls, PrescribedCoordinatesAndRepeatedResidualsDoNoHarm) {
   EXPECT_LE(evaluations(accelerator, scalar(-10.8), kScalarForce, 1e-12, 60), 3);
   CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::Ones();
   accelerator.forget();
-  accelerator.beginStep();
+  accelerator.beginStep(1);
   advance(accelerator, d, residual);
   EXPECT_EQ(advance(accelerator, d, residual), 0.5);  // the same residual again: nothing learnt
   EXPECT_TRUE(d.allFinite());

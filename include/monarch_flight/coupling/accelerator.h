@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Dense>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -30,10 +31,10 @@ struct Proposal {
 class Accelerator {
  public:
   virtual ~Accelerator() = default;
-  /// A new fixed-point problem: the next trial is the first one of a step.
-  virtual void beginStep() = 0;
+  /// A new fixed-point problem: the next trial is the first one of this step.
+  virtual void beginStep(std::uint32_t step) = 0;
   /// Forgets everything that earlier steps taught.
-  virtual void forget() { beginStep(); }
+  virtual void forget() {}
   /// Whether the next trial should come with the Jacobian of the loads, which costs the air
   /// `operator_cost` evaluations.
   virtual bool wantsOperator(int operator_cost) const;
@@ -46,7 +47,7 @@ class Accelerator {
 class ConstantRelaxation : public Accelerator {
  public:
   explicit ConstantRelaxation(double omega) : omega_(omega) {}
-  void beginStep() override {}
+  void beginStep(std::uint32_t) override {}
   Proposal advance(const Trial& trial) override;
 
  private:
@@ -59,7 +60,7 @@ class ConstantRelaxation : public Accelerator {
 class AitkenRelaxation : public Accelerator {
  public:
   AitkenRelaxation(double omega_initial, double omega_min, double omega_max);
-  void beginStep() override;
+  void beginStep(std::uint32_t step) override;
   Proposal advance(const Trial& trial) override;
 
  private:
@@ -78,7 +79,7 @@ class IqnIls : public Accelerator {
   /// `reuse`: earlier steps whose differences are kept, 0 to kMaxReuse.
   IqnIls(double omega_initial, int reuse);
   static constexpr int kMaxReuse = 20;
-  void beginStep() override;
+  void beginStep(std::uint32_t step) override;
   void forget() override;
   Proposal advance(const Trial& trial) override;
   void endStep(const Trial& last) override;
@@ -105,12 +106,12 @@ class IqnIls : public Accelerator {
 /// without the air; d^{k+1} is its solution and L(d^{k+1}) the predicted loads. K is exact within a
 /// step of a flow that is affine; from step to step it is corrected by Broyden's update with the
 /// trials of each step, and asked for again every `operator_every` steps, after a step that needed
-/// more than two trials, and in every step where it costs nothing.
+/// more than three trials, and in every step where it costs nothing.
 class AddedMassNewton : public Accelerator {
  public:
   /// `model` must outlive the strategy and stand at the step.
   AddedMassNewton(const StepModel& model, double length_scale, int operator_every);
-  void beginStep() override;
+  void beginStep(std::uint32_t step) override;
   void forget() override;
   bool wantsOperator(int operator_cost) const override;
   Proposal advance(const Trial& trial) override;
@@ -125,10 +126,9 @@ class AddedMassNewton : public Accelerator {
   double length_scale_;
   int operator_every_;
   std::optional<LoadOperator> operator_;
-  int age_ = 0;           // steps since the operator came from the air
-  int fetched_ = 0;       // how often it did
-  int trials_ = 0;        // of this step
-  bool missed_ = false;   // the last step needed more than two
+  std::uint32_t step_ = 0, fetched_ = 0;  // now; when the operator came from the air
+  int advances_ = 0;                      // of this step
+  bool missed_ = false;                   // the last step needed more than three trials
   std::optional<Trial> previous_;
 };
 

@@ -18,7 +18,7 @@ struct CouplingSettings {
   double omega_initial = 0.5;     ///< first (or constant) relaxation factor, (0, 1]
   double omega_min = 0.05, omega_max = 1.5;  ///< bounds of Aitken's factor (absolute value)
   int reuse_steps = 4;            ///< earlier steps that iqn_ils learns from, 0 to 20
-  int operator_every = 100;       ///< steps between load operators asked of a flow that pays for them
+  int operator_every = 250;       ///< steps between load operators asked of a flow that pays for them
   double tolerance = 1e-8;        ///< on each dimensionless displacement residual: x/c, z/c, theta_B, theta_R
   /// On the loads, relative to their running scales: change of the air's force and moment between
   /// sub-iterations, and what inertia is out of balance (the residual of each free acceleration).
