@@ -92,3 +92,18 @@ def measured_forces(flight_, mass, gravity=9.81):
     theta = reduction.evaluate(flight_["series"]["theta_B"], t, f)
     fx, fz = mass * ax, mass * (az - gravity)
     return np.cos(theta) * fx - np.sin(theta) * fz, -(np.sin(theta) * fx + np.cos(theta) * fz)
+
+
+def strokes(folder, first):
+    """Mean over the whole strokes from number `first` (1 is the first): half the swing and the fundamental's amplitude
+    of the wing's pitch [rad], the fundamental's phase behind cos(2 pi f t) [strokes], mean lift [N], peak lift [N]."""
+    table_, frequency = flight(folder), case_of(folder)["motion"]["frequency"]
+    steps = int(round(1 / frequency / (table_["t"][1] - table_["t"][0])))
+    found = []
+    for start in range((first - 1) * steps, len(table_["t"]) - steps, steps):
+        theta, lift = (table_[name][start:start + steps] for name in ("theta_R", "FZ"))
+        fundamental = 2 * np.mean(theta * np.exp(-2j * np.pi * frequency * table_["t"][start:start + steps]))
+        found.append([np.ptp(theta) / 2, abs(fundamental), -np.angle(fundamental) / (2 * np.pi), -lift.mean(), -lift.min()])
+    if not found:
+        sys.exit(f"figures: {folder}: has no whole stroke from number {first} on")
+    return np.mean(found, axis=0)

@@ -74,7 +74,11 @@ def figure_4(settings):
             "blade elements (Whitney & Wood)": ("hinge_blade_elements", "quasi_steady", THEIRS, "--")}
     figure, (top, bottom) = plt.subplots(2, 1, sharex=True, figsize=(7, 6), constrained_layout=True)
     for label, (name, fluid, colour, line) in runs.items():
-        flight, t = last_stroke(data.run(settings.runs / name, "hinge", f"fluid:={fluid}", "grid:=preview", "flaps:=6"))
+        folder = data.run(settings.runs / name, "hinge", f"fluid:={fluid}", "grid:=preview", "flaps:=6")
+        swing, fundamental, phase, mean, peak = data.strokes(folder, 3)
+        print(f"{label}, strokes 3 to 6: half the swing {deg(swing):.2f} deg, fundamental {deg(fundamental):.2f} deg, "
+              f"{phase:.4f} strokes behind the flapping; lift mean {1e3 * mean:.4f} mN, peak {1e3 * peak:.4f} mN")
+        flight, t = last_stroke(folder)
         lift = -1e3 * flight["FZ"]
         top.plot(t, deg(flight["theta_R"]), color=colour, ls=line, label=label)
         bottom.plot(t, lift, color=colour, ls=line, label=f"{label}, mean {lift[:-1].mean():.3f} mN")
