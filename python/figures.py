@@ -160,16 +160,18 @@ def free_runs(settings, masses):
 
 def figure_7(settings):
     """Paths of the free flights over the mass of a wing, and the measured path."""
-    figure, axes = plt.subplots(figsize=(8, 5), constrained_layout=True)
-    for label, folder in free_runs(settings, [35.35e-6, 35.8e-6, 36.25e-6, 36.75e-6, 37.25e-6]).items():
+    figure, axes = plt.subplots(figsize=(9, 4), constrained_layout=True)
+    runs = free_runs(settings, [35.35e-6, 35.8e-6, 36.25e-6, 36.75e-6, 37.25e-6])
+    colours = plt.cm.viridis(np.linspace(0, 0.9, len(runs)))
+    for (label, folder), colour in zip(runs.items(), colours):
         flight = data.flight(folder)
         best = "36.25" in label
         axes.plot(1e2 * (flight["x"] - flight["x"][0]), -1e2 * (flight["z"] - flight["z"][0]), label=label,
-                  lw=2.2 if best else 1.1, color=THEIRS if best else None)
+                  lw=2.2 if best else 1.1, color=THEIRS if best else colour)
     columns = data.measured()["columns"]
     axes.plot(1e2 * columns["x"], -1e2 * columns["z"], color=MEASURED, ls=":", lw=1.8, label="measured (thorax)")
     axes.set(xlabel="forward [cm]", ylabel="up [cm]", aspect="equal", title=f"Path of the body, {settings.title()}")
-    axes.legend(fontsize=8, title="mass of a wing")
+    axes.legend(fontsize=8, title=None if settings.given else "mass of a wing")
     return figure
 
 
@@ -195,7 +197,9 @@ def figure_8(settings):
         axes.set(title=title, ylabel="angle [deg]", xlabel="t/T")
     grid[1, 1].set_xlim(0, min(t[-1], s[-1]))
     for axes in grid.flat:
-        axes.legend(fontsize=7)
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high + 0.3 * (high - low))  # room for the legend
+        axes.legend(fontsize=7, loc="upper right")
     figure.suptitle(f"Free flight, {settings.title()}")
     return figure
 
