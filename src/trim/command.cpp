@@ -87,11 +87,15 @@ int runTrim(TrimCommand command, const std::string& config_dir, std::ostream& ou
     options.newton.broyden = true;
   }
   const FlapMap map(c, config_dir, options.parameters, options.run_in);
+  const auto keep = [&](const TrimResult& result) {
+    writeResult(command.out, map, options, result, command.fly > 0 ? command.fly : 6);
+  };
+  if (!command.out.empty()) options.better = keep;
   const TrimResult result = trim(c, config_dir, options, out);
   printTrim(out, map, options, result);
   if (!command.out.empty()) {
-    writeResult(command.out, map, options, result, command.fly > 0 ? command.fly : 6);
-    out << "case: " << command.out << '\n';
+    keep(result);
+    out << "case: " << command.out << std::endl;
   }
   if (command.fly > 0) printFlight(out, map.fly(result.point, command.fly));
   return result.newton.converged ? 0 : 1;

@@ -115,10 +115,10 @@ std::vector<TrimTarget> targets(Arguments& arguments) {
     if (!arguments.has(key)) return;
     all.push_back({kind, arguments.number(key, low, high, 0.0) * unit, tolerance});
   };
-  add(TrimTarget::kClimb, kRadians, kRadians, -90.0, 90.0);
-  add(TrimTarget::kSpeed, 1.0, 0.05, 0.0, 100.0);
-  add(TrimTarget::kPitch, kRadians, kRadians, -180.0, 180.0);
-  add(TrimTarget::kSwing, kRadians, kRadians, 0.0, 360.0);
+  add(TrimTarget::kClimb, kRadians, 2.0 * kRadians, -90.0, 90.0);
+  add(TrimTarget::kSpeed, 1.0, 0.1, 0.0, 100.0);
+  add(TrimTarget::kPitch, kRadians, 2.0 * kRadians, -180.0, 180.0);
+  add(TrimTarget::kSwing, kRadians, 3.0 * kRadians, 0.0, 360.0);
   return all;
 }
 
@@ -162,7 +162,7 @@ TrimCommand trimCommand(const std::vector<std::string>& given) {
   newton.central = quick;
   newton.broyden = !quick;
   if (!quick) {
-    newton.max_step = 1.5;
+    newton.max_step = 3.0;
     newton.max_halvings = 2;
     newton.step_tolerance = 0.05;
   }

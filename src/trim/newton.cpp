@@ -16,7 +16,15 @@ using Eigen::VectorXd;
 
 constexpr double kDamping = 1e-4;  // of the parameters, relative to the targets' weight
 
-double merit(const TrimResidual& r) { return r.stacked().squaredNorm(); }
+constexpr double kNear = 0.3;      // periodicity within which the targets lead
+
+/// A better point: closer to periodic flight or, near it, closer to the targets.
+bool better(const TrimResidual& next, const TrimResidual& now) {
+  const double before = now.periodicity.norm(), after = next.periodicity.norm();
+  if (after < 0.9 * before) return true;
+  if (next.targets.size() == 0) return after < before;
+  return after < std::max(before, kNear) && next.targets.norm() < now.targets.norm();
+}
 
 /// f at all points, `threads` of them at a time.
 std::vector<std::optional<TrimResidual>> evaluateAll(const TrimFunction& f,
@@ -94,7 +102,7 @@ std::optional<TrimResidual> search(const TrimFunction& f, const NewtonResult& r,
   for (int k = 0; k <= settings.max_halvings; ++k) {
     const auto trial = f(r.unknowns + step);
     ++evaluations;
-    if (trial && merit(*trial) < merit(r.residual)) return trial;
+    if (trial && better(*trial, r.residual)) return trial;
     step *= 0.5;
   }
   return std::nullopt;

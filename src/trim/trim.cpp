@@ -187,18 +187,23 @@ TrimResult trim(const Case& c, const std::string& config_dir, const TrimOptions&
     settings.upper(i) = p.high / p.scale;
   }
   TrimResult result;
-  result.newton = solveTrim([&](const VectorXd& y) { return search.residual(y); },
-                            search.unknowns(start), settings, options.jacobian,
-                            [&](const NewtonResult& r) {
-                              result.flap = search.accept(r.unknowns);
-                              logIteration(log, r, result.flap);
-                            });
-  result.point = search.point(result.newton.unknowns);
-  result.floquet = floquet(
-      result.newton.jacobian.topRows(static_cast<Index>(map.active().size())));
-  result.flaps_flown = search.flown();
-  result.wall_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto complete = [&](const NewtonResult& r) {
+    result.newton = r;
+    result.point = search.point(r.unknowns);
+    result.floquet = floquet(r.jacobian.topRows(static_cast<Index>(map.active().size())));
+    result.flaps_flown = search.flown();
+    result.wall_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const auto accepted = [&](const NewtonResult& r) {
+    result.flap = search.accept(r.unknowns);
+    logIteration(log, r, result.flap);
+    if (r.jacobian.size() == 0 || !options.better) return;
+    complete(r);
+    options.better(result);
+  };
+  complete(solveTrim([&](const VectorXd& y) { return search.residual(y); },
+                     search.unknowns(start), settings, options.jacobian, accepted));
   return result;
 }
 

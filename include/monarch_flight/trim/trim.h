@@ -1,5 +1,6 @@
 #pragma once
 #include <complex>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ struct TrimTarget {
   static const char* name(Kind kind);
 };
 
+struct TrimResult;
+
 struct TrimOptions {
   std::vector<TrimParameter> parameters;  ///< to be fitted, with their ranges
   std::vector<TrimTarget> targets;
@@ -27,6 +30,9 @@ struct TrimOptions {
   int run_in = 0;                  ///< prescribed flaps before the flap that is trimmed
   NewtonSettings newton;
   Eigen::MatrixXd jacobian;  ///< of another air or grid, to begin Broyden's method with
+  /// Hears of every better point behind the first Jacobian: what a long search that is stopped
+  /// leaves behind.
+  std::function<void(const TrimResult&)> better;
 };
 
 struct FloquetMode {
