@@ -162,8 +162,8 @@ TrimCommand trimCommand(const std::vector<std::string>& given) {
   newton.central = quick;
   newton.broyden = !quick;
   if (!quick) {
-    newton.max_step = 3.0;
-    newton.max_halvings = 2;
+    newton.max_step = 2.0;
+    newton.max_halvings = 4;
     newton.step_tolerance = 0.05;
   }
   command.jacobian_file = arguments.text("jacobian");

@@ -81,9 +81,10 @@ VectorXd boundedLeastSquares(const MatrixXd& A, const VectorXd& a, const VectorX
 }
 
 /// Keeps every unknown's change within `limit`, and parameters within their bounds.
-VectorXd bounded(VectorXd step, const VectorXd& at, Index n, const NewtonSettings& settings) {
+VectorXd bounded(VectorXd step, const VectorXd& at, Index n, double limit,
+                 const NewtonSettings& settings) {
   const double largest = step.cwiseAbs().maxCoeff();
-  if (largest > settings.max_step) step *= settings.max_step / largest;
+  if (largest > limit) step *= limit / largest;
   for (Index i = n; i < step.size(); ++i) {
     step(i) = std::clamp(step(i), settings.lower(i - n) - at(i), settings.upper(i - n) - at(i));
   }
@@ -96,22 +97,30 @@ bool done(const NewtonResult& r, const VectorXd& step, Index n, const NewtonSett
   return step.tail(step.size() - n).cwiseAbs().maxCoeff() <= settings.step_tolerance;
 }
 
-/// Shortens `step` until the residual falls; nothing when it never does.
-std::optional<TrimResidual> search(const TrimFunction& f, const NewtonResult& r, VectorXd& step,
-                                   const NewtonSettings& settings, int& evaluations) {
-  for (int k = 0; k <= settings.max_halvings; ++k) {
-    const auto trial = f(r.unknowns + step);
-    ++evaluations;
-    if (trial && better(*trial, r.residual)) return trial;
-    step *= 0.5;
-  }
-  return std::nullopt;
-}
-
 void update(MatrixXd& J, const VectorXd& step, const TrimResidual& before,
             const TrimResidual& after) {
   const VectorXd change = after.stacked() - before.stacked();
   J += (change - J * step) * step.transpose() / step.squaredNorm();
+}
+
+/// Shortens steps until one is better; nothing when none is. Broyden's method learns from every
+/// flight, so its next step also has another direction. `limit` bounds this and the next step.
+std::optional<TrimResidual> search(const TrimFunction& f, NewtonResult& r, VectorXd& step,
+                                   double& limit, const NewtonSettings& settings) {
+  const Index n = r.residual.periodicity.size();
+  for (int k = 0; k <= settings.max_halvings; ++k) {
+    step = bounded(step, r.unknowns, n, limit, settings);
+    const auto trial = f(r.unknowns + step);
+    ++r.evaluations;
+    if (trial && settings.broyden) update(r.jacobian, step, r.residual, *trial);
+    if (trial && better(*trial, r.residual)) {
+      limit = std::min(2.0 * limit, settings.max_step);
+      return trial;
+    }
+    limit = 0.5 * step.cwiseAbs().maxCoeff();
+    if (settings.broyden) step = trimStep(r.jacobian, r.residual, r.unknowns, settings);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -180,26 +189,22 @@ NewtonResult solveTrim(const TrimFunction& f, const VectorXd& start, const Newto
   r.residual = *first;
   r.jacobian = std::move(jacobian);
   const Index n = r.residual.periodicity.size();
-  bool fresh = false;  // the Jacobian is by differences at this point
+  double limit = settings.max_step;  // of a step
   for (;; ++r.iterations) {
     accepted(r);
-    if (r.jacobian.size() == 0 || (!settings.broyden && !fresh)) {
+    if (r.jacobian.size() == 0 || !settings.broyden) {
       r.jacobian = differenceJacobian(f, r.unknowns, r.residual, settings, r.evaluations);
-      fresh = true;
     }
-    VectorXd step =
-        bounded(trimStep(r.jacobian, r.residual, r.unknowns, settings), r.unknowns, n, settings);
+    VectorXd step = trimStep(r.jacobian, r.residual, r.unknowns, settings);
     r.converged = done(r, step, n, settings);
     if (r.converged || r.iterations == settings.max_iterations) break;
-    const auto next = search(f, r, step, settings, r.evaluations);
+    const auto next = search(f, r, step, limit, settings);
     if (!next) {
       r.reason = "no step reduces the residual further";
       return r;
     }
-    if (settings.broyden) update(r.jacobian, step, r.residual, *next);
     r.unknowns += step;
     r.residual = *next;
-    fresh = false;
   }
   r.reason = r.converged ? "converged" : "most iterations reached";
   return r;
