@@ -13,9 +13,43 @@ namespace {
 
 constexpr double kDissipation = 1.0 / 32;  ///< fourth difference, at Courant numbers of 1 and above
 
-/// v[2] - 4 v[1] + 6 v[0] - 4 v[-1] + v[-2], stride s.
-inline double fourthDifference(const double* v, std::ptrdiff_t s) {
-  return v[2 * s] + v[-2 * s] - 4 * (v[s] + v[-s]) + 6 * v[0];
+/// Off-diagonals of the three factors along one row.
+struct Offs {
+  const double *lx, *ux, *ly, *uy, *lz, *uz;
+};
+
+/// d -= sum of off * (neighbour - v), for i0 <= i <= i1.
+void subtractFluxes(const Offs& o, const double* __restrict v, std::ptrdiff_t sy, std::ptrdiff_t sz,
+                    int i0, int i1, double* __restrict d) {
+  const double* __restrict lx = o.lx;
+  const double* __restrict ux = o.ux;
+  const double* __restrict ly = o.ly;
+  const double* __restrict uy = o.uy;
+  const double* __restrict lz = o.lz;
+  const double* __restrict uz = o.uz;
+  const double* __restrict south = v - sy;
+  const double* __restrict north = v + sy;
+  const double* __restrict down = v - sz;
+  const double* __restrict up = v + sz;
+  for (int i = i0; i <= i1; ++i) {
+    d[i] -= lx[i] * (v[i - 1] - v[i]) + ux[i] * (v[i + 1] - v[i]) + ly[i] * (south[i] - v[i]) +
+            uy[i] * (north[i] - v[i]) + lz[i] * (down[i] - v[i]) + uz[i] * (up[i] - v[i]);
+  }
+}
+
+/// d -= min(scale |f(i) + f(i + o)|, share) * fourth difference of v with stride s, scale(i) = x[i]
+/// * scale_row.
+void subtractFourth(const double* __restrict v, std::ptrdiff_t s, const double* __restrict f,
+                    const double* __restrict f_before, const double* __restrict x, double scale_row,
+                    double share, int i0, int i1, double* __restrict d) {
+  const double* __restrict b1 = v - s;
+  const double* __restrict b2 = v - 2 * s;
+  const double* __restrict a1 = v + s;
+  const double* __restrict a2 = v + 2 * s;
+  for (int i = i0; i <= i1; ++i) {
+    const double factor = scale_row * x[i] * std::abs(f[i] + f_before[i]);
+    d[i] -= std::min(share, factor) * (a2[i] + b2[i] - 4 * (a1[i] + b1[i]) + 6 * v[i]);
+  }
 }
 
 }  // namespace
@@ -50,14 +84,16 @@ Momentum::Momentum(const Grid& grid, const Layout& layout, const Slab& slab)
   }
   wing_plane_.assign(layout.sz, 0.0);
   const std::size_t lines = std::max({layout.nx, layout.ny, layout.nz}) + 8;
-  for (Array* row :
-       {&lower_, &upper_, &wall_diagonal_, &wall_side_, &zero_, &x_above_, &x_below_, &gradient_})
+  for (Array* row : {&lower_, &upper_, &wall_diagonal_, &wall_side_, &zero_, &x_above_, &x_below_})
     row->assign(layout.sy, 0.0);
   for (Array* rows : {&y_above_, &y_below_}) rows->assign(2 * layout.sy, 0.0);
   for (Array* block : {&x_lower_, &x_upper_, &y_lower_, &y_upper_, &lane_lower_, &lane_upper_,
                        &lane_gamma_, &lane_side_})
     block->assign(kLines * layout.sy, 0.0);
   gamma_.assign(lines * layout.sy, 0.0);
+  one_.assign(layout.sy, 1.0);
+  z_behind_.assign(layout.sz, 0.0);
+  next_.assign(layout.sy, 0.0);
   for (int c = 0; c < 3; ++c) {
     fourth_x_[c].assign(layout.sy, 0.0);
     for (int i = 2 + (c == 0); i <= layout.nx - 3; ++i)
@@ -118,22 +154,29 @@ void Momentum::coefficientsY(const Velocity& c, int component, int j, int k, Row
   }
 }
 
-void Momentum::coefficientsZ(const Velocity& c, int component, int j, int k, Row row) const {
-  const std::ptrdiff_t s = layout_.sz, o = -layout_.stride(component);
+/// The stencil, `above` or `below`, of the face behind row (j, k) on the way upwards or downwards.
+void Momentum::faceBehindZ(const Velocity& c, int component, int j, int k, int towards,
+                           double* behind) const {
+  double* unused = next_.data();
+  if (towards > 0) rowFaces(c, component, 2, j, k, behind, unused);
+  if (towards < 0) rowFaces(c, component, 2, j, k + 1, unused, behind);
+}
+
+/// Rows of a line of z come one after the other: `behind` holds the stencil of the face behind the
+/// row (j, k), and then that of the face ahead, for the next row.
+void Momentum::coefficientsZ(const Velocity& c, int component, int j, int k, int towards,
+                             double* __restrict behind, Row row) const {
   const Direction& m = metric_[component][2];
-  const double* __restrict f = c.c[2].data() + layout_.at(0, j, k);
-  double* __restrict lower = row.lower;
-  double* __restrict upper = row.upper;
-  const double iw = m.inverse_width[k], id0 = m.inverse_distance[k],
-               id1 = m.inverse_distance[k + 1];
-  const FaceStencil stencil(step_);
-  for (int i = first(component, 0), end = last(component, 0); i <= end; ++i) {
-    double above, below, unused;
-    stencil(0.5 * (f[i] + f[i + o]), id0, above, unused);
-    stencil(0.5 * (f[i + s] + f[i + s + o]), id1, unused, below);
-    lower[i] = -iw * above;
-    upper[i] = iw * below;
-  }
+  const int ahead = towards > 0 ? k + 1 : k;
+  double* __restrict off_behind = towards > 0 ? row.lower : row.upper;
+  double* __restrict off_ahead = towards > 0 ? row.upper : row.lower;
+  double* __restrict next = next_.data();
+  const double iw = towards * m.inverse_width[k];
+  const int i0 = first(component, 0), i1 = last(component, 0);
+  for (int i = i0; i <= i1; ++i) off_behind[i] = -iw * behind[i];
+  towards > 0 ? rowFaces(c, component, 2, j, ahead, behind, next)
+              : rowFaces(c, component, 2, j, ahead, next, behind);
+  for (int i = i0; i <= i1; ++i) off_ahead[i] = iw * next[i];
 }
 
 void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Velocity& vm,
@@ -188,54 +231,42 @@ void Momentum::cutAtWing(int component, int j, int k, double* __restrict off,
 void Momentum::rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
                          const WallVelocity& wall_n, int component, int j, int k, Row x, Row y) {
   const std::ptrdiff_t row = layout_.at(0, j, k), sc = layout_.stride(component);
-  const std::ptrdiff_t sy = layout_.sy, sz = layout_.sz, sx = 1;
-  const int i0 = first(component, 0), i1 = last(component, 0);
-  coefficientsZ(c, component, j, k, {lower_.data(), upper_.data()});
-  const bool cut = component != 2 && (k == grid_.k_wing || k == grid_.k_wing - 1);
-  if (cut) {
-    cutAtWing(component, j, k, k == grid_.k_wing ? lower_.data() : upper_.data(),
-              wall_diagonal_.data());
-  }
+  const int i0 = first(component, 0), i1 = last(component, 0), kw = grid_.k_wing;
   const double* __restrict v = vn.c[component].data() + row;
   const double* __restrict w = vm.c[component].data() + row;
   const double* __restrict q = p.data() + row;
-  const double* __restrict cx = c.c[0].data() + row;
-  const double* __restrict cy = c.c[1].data() + row;
-  const double* __restrict lx = x.lower;
-  const double* __restrict ux = x.upper;
-  const double* __restrict ly = y.lower;
-  const double* __restrict uy = y.upper;
-  const double* __restrict lz = lower_.data();
-  const double* __restrict uz = upper_.data();
-  double* __restrict gradient = gradient_.data();
-  const double scale = step_.a / step_.rho;
-  const double* iw = metric_[component][component].inverse_width.data();
-  const double iw_row = component == 0 ? 0.0 : iw[component == 1 ? j : k];
-  const double* __restrict fourth_x = fourth_x_[component].data();
+  const double* __restrict q_before = q - sc;
   double* __restrict d = delta_.c[component].data() + row;
-
-  for (int i = i0; i <= i1; ++i) gradient[i] = scale * (component == 0 ? iw[i] : iw_row);
-
-  const double third = step_.second_order ? 1.0 / 3 : 0.0;
-  const double share = step_.a / step_.dt * kDissipation, half_dt = 0.5 * step_.dt;
-  const bool inside = j >= 2 + first(component, 1) && j <= layout_.ny - 3;
-  const double fourth_y = inside ? half_dt * metric_[component][1].inverse_width[j] : 0.0;
-  const std::ptrdiff_t ox = component == 0 ? 0 : -sc, oy = component == 1 ? 0 : -sc;
-  for (int i = i0; i <= i1; ++i) {
-    const double v0 = v[i];
-    const double convection = lx[i] * (v[i - 1] - v0) + ux[i] * (v[i + 1] - v0) +
-                              ly[i] * (v[i - sy] - v0) + uy[i] * (v[i + sy] - v0) +
-                              lz[i] * (v[i - sz] - v0) + uz[i] * (v[i + sz] - v0);
-    const double courant_x = half_dt * fourth_x[i] * std::abs(cx[i] + cx[i + ox]);
-    const double courant_y = fourth_y * std::abs(cy[i] + cy[i + oy]);
-    const double smoothing = std::min(1.0, courant_x) * fourthDifference(v + i, sx) +
-                             std::min(1.0, courant_y) * fourthDifference(v + i, sy);
-    d[i] = third * (v0 - w[i]) - gradient[i] * (q[i] - q[i - sc]) - convection - share * smoothing;
+  const double third = step_.second_order ? 1.0 / 3 : 0.0, scale = step_.a / step_.rho;
+  const double* __restrict iw = metric_[component][component].inverse_width.data();
+  if (component == 0) {
+    for (int i = i0; i <= i1; ++i)
+      d[i] = third * (v[i] - w[i]) - scale * iw[i] * (q[i] - q_before[i]);
+  } else {
+    const double gradient = scale * iw[component == 1 ? j : k];
+    for (int i = i0; i <= i1; ++i) d[i] = third * (v[i] - w[i]) - gradient * (q[i] - q_before[i]);
   }
-  if (!cut) return;
-  const double y_point = position(component, 1, j);
-  for (int i = i0; i <= i1; ++i)
-    d[i] += wall_diagonal_[i] * (wall_n.at(component, position(component, 0, i), y_point) - v[i]);
+
+  double* behind = z_behind_.data() + j * layout_.sy;
+  if (k == first(component, 2)) faceBehindZ(c, component, j, k, +1, behind);
+  coefficientsZ(c, component, j, k, +1, behind, {lower_.data(), upper_.data()});
+  if (component != 2 && (k == kw || k == kw - 1)) {
+    cutAtWing(component, j, k, k == kw ? lower_.data() : upper_.data(), wall_diagonal_.data());
+    const double y_point = position(component, 1, j);
+    for (int i = i0; i <= i1; ++i)
+      d[i] += wall_diagonal_[i] * (wall_n.at(component, position(component, 0, i), y_point) - v[i]);
+  }
+  subtractFluxes({x.lower, x.upper, y.lower, y.upper, lower_.data(), upper_.data()}, v, layout_.sy,
+                 layout_.sz, i0, i1, d);
+
+  const double share = step_.a / step_.dt * kDissipation, courant = 0.5 * step_.dt * share;
+  const double* cx = c.c[0].data() + row;
+  const double* cy = c.c[1].data() + row;
+  subtractFourth(v, 1, cx, component == 0 ? cx : cx - sc, fourth_x_[component].data(), courant,
+                 share, i0, i1, d);
+  if (j < 2 + first(component, 1) || j > layout_.ny - 3) return;
+  subtractFourth(v, layout_.sy, cy, component == 1 ? cy : cy - sc, one_.data(),
+                 courant * metric_[component][1].inverse_width[j], share, i0, i1, d);
 }
 
 }  // namespace monarch_flight

@@ -68,7 +68,10 @@ class Momentum {
                 double* below) const;
   void coefficientsX(const Velocity& c, int component, int j, int k, Row row);
   void coefficientsY(const Velocity& c, int component, int j, int k, Row row);
-  void coefficientsZ(const Velocity& c, int component, int j, int k, Row row) const;
+  void faceBehindZ(const Velocity& c, int component, int j, int k, int towards,
+                   double* behind) const;
+  void coefficientsZ(const Velocity& c, int component, int j, int k, int towards, double* behind,
+                     Row row) const;
   void rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
                  const WallVelocity& wall_n, int component, int j, int k, Row x, Row y);
   void cutAtWing(int component, int j, int k, double* off, double* diagonal) const;
@@ -116,11 +119,13 @@ class Momentum {
   Velocity delta_;    ///< after the x and y factors
   Array wing_plane_;  ///< right side of w in the wing's plane, before any factor
   // Scratch: single rows, two rows of faces, blocks of kLines rows, and such blocks interleaved
-  Array lower_, upper_, wall_diagonal_, wall_side_, zero_, x_above_, x_below_, gradient_;
+  Array lower_, upper_, wall_diagonal_, wall_side_, zero_, x_above_, x_below_, one_;
   Array y_above_, y_below_;
   Array x_lower_, x_upper_, y_lower_, y_upper_;
   Array lane_lower_, lane_upper_, lane_gamma_, lane_side_;
-  Array gamma_;        ///< factors of a plane
+  Array gamma_;     ///< factors of a plane
+  Array z_behind_;  ///< stencils of a plane of z-faces
+  mutable Array next_;
   Array fourth_x_[3];  ///< per component: 1 / width where fourth differences along x reach, else 0
   Array gamma_field_;  ///< factors of all lines; only where several processes share them
 };

@@ -21,7 +21,7 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
   const int kw = grid_.k_wing;
   double* lower = lower_.data();
   double* upper = upper_.data();
-  coefficientsZ(c, component, j, k, {lower, upper});
+  coefficientsZ(c, component, j, k, towards, z_behind_.data(), {lower, upper});
   const bool is_end = towards > 0 ? k == (component == 2) : k == layout_.nz - 1;
   const std::ptrdiff_t row = layout_.at(0, j, k);
   const double* __restrict near = towards > 0 ? lower : upper;
@@ -63,11 +63,12 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
 void Momentum::eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
                          int j, int half) {
   const int k0 = first(lines.component, 2), k1 = last(lines.component, 2), kw = grid_.k_wing;
-  if (half == 0) {
-    for (int k = k0; k <= std::min(k1, kw - 1); ++k) eliminateRow(c, wall_change, lines, j, k, +1);
-  } else {
-    for (int k = k1; k >= std::max(k0, kw); --k) eliminateRow(c, wall_change, lines, j, k, -1);
-  }
+  const int begin = half == 0 ? k0 : k1, end = half == 0 ? std::min(k1, kw - 1) : std::max(k0, kw);
+  const int towards = half == 0 ? +1 : -1, rows = (end - begin) * towards + 1;
+  if (rows <= 0) return;
+  faceBehindZ(c, lines.component, j, begin, towards, z_behind_.data());
+  for (int n = 0; n < rows; ++n)
+    eliminateRow(c, wall_change, lines, j, begin + n * towards, towards);
 }
 
 /// The two points that meet at the wing's plane, of which this process owns one or both.
