@@ -90,7 +90,7 @@ Momentum::Momentum(const Grid& grid, const Layout& layout, const Slab& slab)
   for (Array* block : {&x_lower_, &x_upper_, &y_lower_, &y_upper_, &lane_lower_, &lane_upper_,
                        &lane_gamma_, &lane_side_})
     block->assign(kLines * layout.sy, 0.0);
-  gamma_.assign(lines * layout.sy, 0.0);
+  gamma_.assign(kRowsZ * lines * layout.sy, 0.0);
   one_.assign(layout.sy, 1.0);
   z_behind_.assign(layout.sz, 0.0);
   next_.assign(layout.sy, 0.0);

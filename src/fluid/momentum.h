@@ -104,11 +104,17 @@ class Momentum {
   struct Lines;  ///< the factors and right sides of the lines of one component
   void eliminateRow(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j,
                     int k, int towards);
-  void eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j,
-                 int half);
-  void join(const Lines& lines, int j) const;
-  void substitute(const Lines& lines, int j, int half) const;
-  void addLevel(const Lines& lines, const Velocity& vn, int j) const;
+  struct RowRange {
+    int first, last;
+  };
+  void eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
+                 RowRange rows, int half);
+  void join(const Lines& lines, RowRange rows) const;
+  void substitute(const Lines& lines, RowRange rows, int half) const;
+  void addLevel(const Lines& lines, const Velocity& vn, RowRange rows) const;
+
+  /// Lines of z that one process solves together: neighbours in memory, few enough for the cache.
+  static constexpr int kRowsZ = 4;
 
   const Grid& grid_;
   const Layout& layout_;

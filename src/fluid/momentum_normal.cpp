@@ -21,7 +21,7 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
   const int kw = grid_.k_wing;
   double* lower = lower_.data();
   double* upper = upper_.data();
-  coefficientsZ(c, component, j, k, towards, z_behind_.data(), {lower, upper});
+  coefficientsZ(c, component, j, k, towards, &z_behind_[j * layout_.sy], {lower, upper});
   const bool is_end = towards > 0 ? k == (component == 2) : k == layout_.nz - 1;
   const std::ptrdiff_t row = layout_.at(0, j, k);
   const double* __restrict near = towards > 0 ? lower : upper;
@@ -61,70 +61,81 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
 
 /// Half 0: the planes below the wing's, upwards; half 1: those above, downwards.
 void Momentum::eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
-                         int j, int half) {
+                         RowRange rows, int half) {
   const int k0 = first(lines.component, 2), k1 = last(lines.component, 2), kw = grid_.k_wing;
   const int begin = half == 0 ? k0 : k1, end = half == 0 ? std::min(k1, kw - 1) : std::max(k0, kw);
-  const int towards = half == 0 ? +1 : -1, rows = (end - begin) * towards + 1;
-  if (rows <= 0) return;
-  faceBehindZ(c, lines.component, j, begin, towards, z_behind_.data());
-  for (int n = 0; n < rows; ++n)
-    eliminateRow(c, wall_change, lines, j, begin + n * towards, towards);
-}
-
-/// The two points that meet at the wing's plane, of which this process owns one or both.
-void Momentum::join(const Lines& lines, int j) const {
-  const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
-  const double* __restrict ga = lines.gammaAt(j, kw - 1);
-  const double* __restrict gb = lines.gammaAt(j, kw);
-  double* __restrict a = lines.x + layout_.at(0, j, kw - 1);
-  double* __restrict b = lines.x + layout_.at(0, j, kw);
-  for (int i = i0; i <= i1; ++i) {
-    const double inv = 1 / (1 - ga[i] * gb[i]), below = a[i], above = b[i];
-    a[i] = (below - ga[i] * above) * inv;
-    b[i] = (above - gb[i] * below) * inv;
+  const int towards = half == 0 ? +1 : -1, planes = (end - begin) * towards + 1;
+  if (planes <= 0) return;
+  for (int j = rows.first; j <= rows.last; ++j)
+    faceBehindZ(c, lines.component, j, begin, towards, &z_behind_[j * layout_.sy]);
+  for (int n = 0; n < planes; ++n) {
+    for (int j = rows.first; j <= rows.last; ++j)
+      eliminateRow(c, wall_change, lines, j, begin + n * towards, towards);
   }
 }
 
-void Momentum::substitute(const Lines& lines, int j, int half) const {
+/// The two points that meet at the wing's plane, of which this process owns one or both.
+void Momentum::join(const Lines& lines, RowRange rows) const {
+  const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
+  for (int j = rows.first; j <= rows.last; ++j) {
+    const double* __restrict ga = lines.gammaAt(j, kw - 1);
+    const double* __restrict gb = lines.gammaAt(j, kw);
+    double* __restrict a = lines.x + layout_.at(0, j, kw - 1);
+    double* __restrict b = lines.x + layout_.at(0, j, kw);
+    for (int i = i0; i <= i1; ++i) {
+      const double inv = 1 / (1 - ga[i] * gb[i]), below = a[i], above = b[i];
+      a[i] = (below - ga[i] * above) * inv;
+      b[i] = (above - gb[i] * below) * inv;
+    }
+  }
+}
+
+void Momentum::substitute(const Lines& lines, RowRange rows, int half) const {
   const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
   const int k0 = first(lines.component, 2), k1 = last(lines.component, 2);
   const int begin = half == 0 ? std::min(k1, kw - 2) : std::max(k0, kw + 1);
   const int count = half == 0 ? begin - k0 + 1 : k1 - begin + 1, towards = half == 0 ? -1 : +1;
   for (int n = 0; n < count; ++n) {
     const int k = begin + n * towards;
-    double* __restrict x = lines.x + layout_.at(0, j, k);
-    const double* __restrict solved = x - towards * layout_.sz;
-    const double* __restrict g = lines.gammaAt(j, k);
-    for (int i = i0; i <= i1; ++i) x[i] -= g[i] * solved[i];
+    for (int j = rows.first; j <= rows.last; ++j) {
+      double* __restrict x = lines.x + layout_.at(0, j, k);
+      const double* __restrict solved = x - towards * layout_.sz;
+      const double* __restrict g = lines.gammaAt(j, k);
+      for (int i = i0; i <= i1; ++i) x[i] -= g[i] * solved[i];
+    }
   }
 }
 
-void Momentum::addLevel(const Lines& lines, const Velocity& vn, int j) const {
+void Momentum::addLevel(const Lines& lines, const Velocity& vn, RowRange rows) const {
   const int i0 = first(lines.component, 0), i1 = last(lines.component, 0);
   for (int k = first(lines.component, 2); k <= last(lines.component, 2); ++k) {
-    const double* __restrict v = vn.c[lines.component].data() + layout_.at(0, j, k);
-    double* __restrict x = lines.x + layout_.at(0, j, k);
-    for (int i = i0; i <= i1; ++i) x[i] += v[i];
+    for (int j = rows.first; j <= rows.last; ++j) {
+      const double* __restrict v = vn.c[lines.component].data() + layout_.at(0, j, k);
+      double* __restrict x = lines.x + layout_.at(0, j, k);
+      for (int i = i0; i <= i1; ++i) x[i] += v[i];
+    }
   }
 }
 
 void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int component,
                       const Velocity& vn, Velocity& v_star) {
   const int j0 = first(component, 1), j1 = last(component, 1), kw = grid_.k_wing;
-  Lines lines{
-      component, delta_.c[component].data(), v_star.c[component].data(), gamma_.data(), layout_.sy,
-      0};
+  Lines lines{component,     delta_.c[component].data(), v_star.c[component].data(),
+              gamma_.data(), kRowsZ * layout_.sy,        layout_.sy};
   if (slab_.ranks() == 1) {
-    for (int j = j0; j <= j1; ++j) {
-      eliminate(c, wall_change, lines, j, 0);
-      eliminate(c, wall_change, lines, j, 1);
-      join(lines, j);
-      substitute(lines, j, 0);
-      substitute(lines, j, 1);
-      addLevel(lines, vn, j);
+    for (int j = j0; j <= j1; j += kRowsZ) {
+      const RowRange rows{j, std::min(j + kRowsZ - 1, j1)};
+      lines.gamma = gamma_.data() - j * layout_.sy;
+      eliminate(c, wall_change, lines, rows, 0);
+      eliminate(c, wall_change, lines, rows, 1);
+      join(lines, rows);
+      substitute(lines, rows, 0);
+      substitute(lines, rows, 1);
+      addLevel(lines, vn, rows);
     }
     return;
   }
+  const RowRange rows{j0, j1};
   // The same with the lines cut by slabs: planes pass from process to process towards the wing and
   // back.
   lines.gamma = gamma_field_.data() + layout_.at(0, 0, 0);
@@ -139,7 +150,7 @@ void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int co
       slab_.receiveFromBelow(x(k0 - 1), n);
       slab_.receiveFromBelow(gamma(k0 - 1), n);
     }
-    for (int j = j0; j <= j1; ++j) eliminate(c, wall_change, lines, j, 0);
+    eliminate(c, wall_change, lines, rows, 0);
     if (k1 < kw) {
       slab_.sendUp(x(k1 - 1), n);
       slab_.sendUp(gamma(k1 - 1), n);
@@ -150,7 +161,7 @@ void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int co
       slab_.receiveFromAbove(x(k1), n);
       slab_.receiveFromAbove(gamma(k1), n);
     }
-    for (int j = j0; j <= j1; ++j) eliminate(c, wall_change, lines, j, 1);
+    eliminate(c, wall_change, lines, rows, 1);
     if (k0 > kw) {
       slab_.sendDown(x(k0), n);
       slab_.sendDown(gamma(k0), n);
@@ -164,19 +175,19 @@ void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int co
     slab_.exchangeBelow(gamma(kw), gamma(kw - 1), n);
   }
   if (k0 <= kw && k1 >= kw) {
-    for (int j = j0; j <= j1; ++j) join(lines, j);
+    join(lines, rows);
   }
   if (has_below) {
     if (k1 < kw) slab_.receiveFromAbove(x(k1), n);
-    for (int j = j0; j <= j1; ++j) substitute(lines, j, 0);
+    substitute(lines, rows, 0);
     if (!slab_.atBottom()) slab_.sendDown(x(k0), n);
   }
   if (has_above) {
     if (k0 > kw) slab_.receiveFromBelow(x(k0 - 1), n);
-    for (int j = j0; j <= j1; ++j) substitute(lines, j, 1);
+    substitute(lines, rows, 1);
     if (!slab_.atTop()) slab_.sendUp(x(k1 - 1), n);
   }
-  for (int j = j0; j <= j1; ++j) addLevel(lines, vn, j);
+  addLevel(lines, vn, rows);
 }
 
 }  // namespace monarch_flight
