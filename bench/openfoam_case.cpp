@@ -1,10 +1,12 @@
 // Writes mesh and motion of the peer's case: the same grid and wing as bench_flow's as an OpenFOAM
 // polyMesh with a baffle, and the flap as a table of rigid motion.
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <stdexcept>
 
 #include "subject.h"
 
@@ -147,8 +149,8 @@ class PolyMesh {
   std::vector<Patch> patches_;
 };
 
-/// Motion relative to the axes at t = 0, in which the mesh is written: translation and the angles of
-/// R = Rx Ry Rz in degrees.
+/// Motion relative to the axes at t = 0, in which the mesh is written: translation and the angles
+/// of R = Rx Ry Rz in degrees.
 void writeMotion(const Subject& subject, int steps, const std::string& path) {
   std::ofstream out(path);
   out << std::setprecision(15) << steps + 1 << "\n(\n";
