@@ -190,7 +190,8 @@ void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Veloc
         coefficientsY(c, component, j, k, y);
         rightSide(vn, vm, c, p, wall_n, component, j, k, x, y);
       });
-      if (swept) continue;  // in finish(): it holds the wing's faces
+      if (swept) continue;
+      // Swept in finish(): it holds the wing's faces.
       const double* plane = delta_.c[2].data() + layout_.plane(k);
       std::copy(plane, plane + layout_.sz, wing_plane_.begin());
     }
