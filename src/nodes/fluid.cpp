@@ -1,5 +1,3 @@
 #include "monarch_flight/ros_io/node_main.h"
 
-int main(int argc, char** argv) {
-  return monarch_flight::participantMain(monarch_flight::Role::kFluid, argc, argv);
-}
+int main(int argc, char** argv) { return monarch_flight::fluidMain(argc, argv); }

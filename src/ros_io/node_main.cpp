@@ -7,6 +7,7 @@
 #include <iostream>
 #include <random>
 
+#include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/ros_io/coordinator_node.h"
 #include "monarch_flight/ros_io/flight_run.h"
@@ -26,9 +27,7 @@ void requestStop(int) { stop_requested = true; }
 int guarded(const std::string& name, const std::function<int()>& body) {
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
-  const auto tell = [&name](const char* what) {
-    std::cerr << name << ": " << what << std::endl;
-  };
+  const auto tell = [&name](const char* what) { std::cerr << name << ": " << what << std::endl; };
   try {
     return body();
   } catch (const InputError& e) {
@@ -67,15 +66,28 @@ int coordinatorMain(int argc, char** argv) {
   return nodeMain("coordinator", argc, argv, [] { return CoordinatorNode(stop_requested).run(); });
 }
 
+int fluidMain(int argc, char** argv) {
+  const Processes processes(&argc, &argv);
+  if (processes.rank() == 0) return participantMain(Role::kFluid, argc, argv);
+  processes.serveFlow();
+  return kExitComplete;
+}
+
 int participantMain(Role role, int argc, char** argv) {
   return nodeMain(roleName(role), argc, argv,
                   [role] { return ParticipantNode(role, stop_requested).run(); });
 }
 
 int inProcessMain(int argc, char** argv) {
+  const Processes processes(&argc, &argv);
+  if (processes.rank() > 0) {
+    processes.serveFlow();
+    return kExitComplete;
+  }
   return guarded("fly_in_process", [&] {
     const RunParameters parameters = runParameters(argc, argv);
     const Case c = loadCase(parameters);
+    requireProcesses(parameters, c);
     FlightRun run(c, outputDirectory(parameters, c), {});
     InProcessFederation federation(c);
     return run.fly(1, federation.participant(Role::kFluid), federation.participant(Role::kFlight),

@@ -8,9 +8,12 @@
 namespace monarch_flight {
 namespace {
 
-Case readCase() {
+Case readCase(Role role) {
   XmlRpc::XmlRpcValue values = parametersOf(kNamespace);
-  return loadCase(runParameters(values, std::string(kNamespace) + "/"));
+  const RunParameters parameters = runParameters(values, std::string(kNamespace) + "/");
+  const Case c = loadCase(parameters);
+  if (role == Role::kFluid) requireProcesses(parameters, c);
+  return c;
 }
 
 }  // namespace
@@ -25,7 +28,7 @@ Reply ParticipantOnStart::exchange(const Request& request) {
 }
 
 ParticipantNode::ParticipantNode(Role role, const bool& stop)
-    : case_(readCase()),
+    : case_(readCase(role)),
       participant_(role, case_),
       server_(ros::NodeHandle(kNamespace), {role, case_.name, case_.sha256}, participant_,
               limitsFor(case_.watchdog_s), stop) {}

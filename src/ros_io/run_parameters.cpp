@@ -8,6 +8,7 @@
 #include <ctime>
 #include <filesystem>
 
+#include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
@@ -27,7 +28,8 @@ bool oneOf(const std::string& key, std::initializer_list<const char*> names) {
   return false;
 }
 
-// The shortest text that reads back as the same number: nodes and command line then agree bit for bit.
+// The shortest text that reads back as the same number: nodes and command line then agree bit for
+// bit.
 std::string shortest(double value) {
   char text[40];
   for (int digits = 6; digits <= 17; ++digits) {
@@ -58,8 +60,10 @@ void take(const std::string& key, const std::string& value, const std::string& w
     out.watchdog_s = positiveNumber(value);
     if (out.watchdog_s == 0.0) faults.push_back(shown + ": must be a number of seconds > 0");
   } else if (key == "ranks") {
-    if (value != "1") {
-      faults.push_back(shown + ": parallel runs are not available in this version; use ranks:=1");
+    const double ranks = positiveNumber(value);
+    out.ranks = static_cast<int>(ranks);
+    if (ranks < 1.0 || ranks > 10000.0 || out.ranks != ranks) {
+      faults.push_back(shown + ": must be a whole number from 1 to 10000");
     }
   } else {
     faults.push_back(where + key + ": unknown parameter; known are " + kKnown);
@@ -131,10 +135,9 @@ RunParameters runParameters(XmlRpc::XmlRpcValue& parameters, const std::string& 
   if (parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
     for (auto& entry : parameters) {
       const auto type = entry.second.getType();
-      const bool scalar = type == XmlRpc::XmlRpcValue::TypeBoolean ||
-                          type == XmlRpc::XmlRpcValue::TypeInt ||
-                          type == XmlRpc::XmlRpcValue::TypeDouble ||
-                          type == XmlRpc::XmlRpcValue::TypeString;
+      const bool scalar =
+          type == XmlRpc::XmlRpcValue::TypeBoolean || type == XmlRpc::XmlRpcValue::TypeInt ||
+          type == XmlRpc::XmlRpcValue::TypeDouble || type == XmlRpc::XmlRpcValue::TypeString;
       if (scalar) {
         values[entry.first] = text(entry.second);
       } else {
@@ -152,6 +155,18 @@ Case loadCase(const RunParameters& parameters) {
   Case c = loadCase(name, parameters.overrides, configDirectory());
   if (parameters.watchdog_s > 0.0) c.watchdog_s = parameters.watchdog_s;
   return c;
+}
+
+void requireProcesses(const RunParameters& parameters, const Case& c) {
+  const std::string ranks = "ranks = " + std::to_string(parameters.ranks) + ": ";
+  if (parameters.ranks > 1 && c.fluid == FluidKind::kQuasiSteady) {
+    throw InputError(ranks + "quasi_steady runs on one process; use ranks:=1");
+  }
+  if (parameters.ranks != flowProcesses()) {
+    throw InputError(ranks + "the fluid was started on " + std::to_string(flowProcesses()) +
+                     " process(es); start it by mpirun -np " + std::to_string(parameters.ranks) +
+                     ", as scripts/fly and the launch files do");
+  }
 }
 
 std::string outputDirectory(const RunParameters& parameters, const Case& c) {

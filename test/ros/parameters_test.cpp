@@ -52,9 +52,9 @@ TEST(RunParameters, CommandLineAndServerMeanTheSame) {
 
 TEST(RunParameters, EveryFaultIsNamedAtOnce) {
   const std::string faults =
-      faultsOf({"flap:=3", "ranks:=2", "watchdog:=soon", "nonsense", "case:=a", "case:=b"});
+      faultsOf({"flap:=3", "ranks:=two", "watchdog:=soon", "nonsense", "case:=a", "case:=b"});
   EXPECT_NE(std::string::npos, faults.find("flap: unknown parameter; known are case")) << faults;
-  EXPECT_NE(std::string::npos, faults.find("ranks = 2: parallel runs are not available"));
+  EXPECT_NE(std::string::npos, faults.find("ranks = two: must be a whole number"));
   EXPECT_NE(std::string::npos, faults.find("watchdog = soon: must be a number"));
   EXPECT_NE(std::string::npos, faults.find("'nonsense': must be key:=value"));
   EXPECT_NE(std::string::npos, faults.find("'case:=b': this key is given twice"));

@@ -16,6 +16,8 @@ const bool& stopRequested();
 /// one message on stderr.
 int coordinatorMain(int argc, char** argv);
 int participantMain(Role role, int argc, char** argv);
+/// participantMain of the fluid on the processes that mpirun started; process 0 speaks ROS.
+int fluidMain(int argc, char** argv);
 /// The same flight without a master: key:=value arguments.
 int inProcessMain(int argc, char** argv);
 /// Prints the URDF of a case's insect and writes its meshes: case:=<name or path>, out:=<folder>

@@ -17,25 +17,30 @@ struct RunParameters {
   std::string out;             ///< folder of the results; empty: flights/<case>-<time>
   std::string directory;       ///< where relative paths start; empty: the working directory
   CaseOverrides overrides;     ///< fluid, grid, flaps, steps_per_flap, record
+  int ranks = 1;               ///< `ranks`: processes of the flow solver
   double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
 };
 
 /// Checks keys and values. `where` is put before a key in messages ("/monarch_flight/" or "").
-/// Throws InputError with every fault: unknown keys, ranks other than 1, a watchdog <= 0.
+/// Throws InputError with every fault: unknown keys, ranks that are no whole number > 0, a watchdog
+/// <= 0.
 RunParameters runParameters(const std::map<std::string, std::string>& values,
                             const std::string& where);
 /// Of a command line; arguments of roslaunch (__name:=...) are skipped. Throws InputError.
 RunParameters runParameters(int argc, char** argv);
-/// Of the struct that the parameter server holds for the namespace `where`. Private parameters of the
-/// nodes other than diagnostic_period are unknown. Throws InputError.
+/// Of the struct that the parameter server holds for the namespace `where`. Private parameters of
+/// the nodes other than diagnostic_period are unknown. Throws InputError.
 RunParameters runParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where);
 
 /// The case that the parameters name, with their overrides. Throws InputError.
 Case loadCase(const RunParameters& parameters);
+/// Throws InputError unless mpirun started as many processes as `ranks` says (1: without mpirun)
+/// and the fluid of the case can use them. For the program that holds the fluid.
+void requireProcesses(const RunParameters& parameters, const Case& c);
 /// Where the run writes: absolute path.
 std::string outputDirectory(const RunParameters& parameters, const Case& c);
-/// The config folder: beside an installed package's executables, else in the source tree it was built
-/// from. Throws InputError when neither is there.
+/// The config folder: beside an installed package's executables, else in the source tree it was
+/// built from. Throws InputError when neither is there.
 std::string configDirectory();
 
 }  // namespace monarch_flight
