@@ -46,7 +46,7 @@ struct Fields {
         phi(grid.cells() + grid.x.n() * grid.y.n(), 0.0),
         momentum(grid, layout, slab),
         pressure(grid, slab),
-        step{2 * s.dt() / 3, s.dt(), s.air().mu / s.air().rho, s.air().rho, true},
+        step{2 * s.dt(grid) / 3, s.dt(grid), s.air().mu / s.air().rho, s.air().rho, true},
         wall(wallVelocity(gridVelocity(s.motion(0), s.air().wind_I))) {
     for (int d = 0; d < 3; ++d) {
       for (std::size_t q = 0; q < vn.c[d].size(); ++q) {

@@ -151,19 +151,19 @@ class PolyMesh {
 
 /// Motion relative to the axes at t = 0, in which the mesh is written: translation and the angles
 /// of R = Rx Ry Rz in degrees.
-void writeMotion(const Subject& subject, int steps, const std::string& path) {
+void writeMotion(const Subject& subject, double dt, int steps, const std::string& path) {
   std::ofstream out(path);
   out << std::setprecision(15) << steps + 1 << "\n(\n";
   const WingMotion start = subject.motion(0);
   for (int n = 0; n <= steps; ++n) {
-    const WingMotion m = subject.motion(n * subject.dt());
+    const WingMotion m = subject.motion(n * dt);
     const Eigen::Vector3d x = start.R_IW.transpose() * (m.r_I - start.r_I);
     const Eigen::Matrix3d R = start.R_IW.transpose() * m.R_IW;
     const double degrees = 180 / M_PI;
     const Eigen::Vector3d angles(std::atan2(-R(1, 2), R(2, 2)), std::asin(R(0, 2)),
                                  std::atan2(-R(0, 1), R(0, 0)));
-    out << '(' << n * subject.dt() << " ((" << x.transpose() << ") ("
-        << (degrees * angles).transpose() << ")))\n";
+    out << '(' << n * dt << " ((" << x.transpose() << ") (" << (degrees * angles).transpose()
+        << ")))\n";
   }
   out << ")\n";
 }
@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
   const Subject subject;
   const Grid grid = subject.grid(cells);
   PolyMesh(grid).write(folder + "/constant/polyMesh");
-  writeMotion(subject, 500, folder + "/constant/motion.dat");
-  std::cout << grid.cells() << ' ' << std::setprecision(15) << subject.dt() << std::endl;
+  writeMotion(subject, subject.dt(grid), 500, folder + "/constant/motion.dat");
+  std::cout << grid.cells() << ' ' << std::setprecision(15) << subject.dt(grid) << std::endl;
   return 0;
 }
