@@ -7,26 +7,28 @@
 namespace monarch_flight {
 namespace {
 
-constexpr double kUpwindMin = 0.05;        ///< share of first-order upwind at small Courant numbers
-constexpr double kUpwindMax = 0.30;        ///< and at Courant numbers above 2
+/// Share of first-order upwind in the factors at small Courant numbers. It acts on the increment
+/// alone, so it costs no order; the explicit side has none there.
+constexpr double kUpwindMin = 0.05;
+constexpr double kUpwindMax = 0.30;        ///< on both sides, at Courant numbers above 2
 constexpr double kDissipation = 1.0 / 32;  ///< fourth difference, at Courant numbers of 1 and above
 constexpr int kLines = 8;                  ///< lines solved together in the x sweep (one vector)
 
-double upwind(double courant) {
-  return std::min(kUpwindMax, std::max(kUpwindMin, kUpwindMin + 0.25 * (courant - 1.0)));
+double upwind(double courant, double least) {
+  return std::min(kUpwindMax, std::max(least, kUpwindMin + 0.25 * (courant - 1.0)));
 }
 
 /// a A_d: `minus` and `plus` are the convecting velocities on the lower and upper side of the
 /// point.
 struct Stencil {
-  double a, dt, nu;
+  double a, dt, nu, least;
   double lower(double minus, double inv_dist, double inv_width) const {
     const double m = std::abs(minus);
-    return -a * (0.5 * (minus + upwind(m * dt * inv_dist) * m) + nu * inv_dist) * inv_width;
+    return -a * (0.5 * (minus + upwind(m * dt * inv_dist, least) * m) + nu * inv_dist) * inv_width;
   }
   double upper(double plus, double inv_dist, double inv_width) const {
     const double m = std::abs(plus);
-    return a * (0.5 * (plus - upwind(m * dt * inv_dist) * m) - nu * inv_dist) * inv_width;
+    return a * (0.5 * (plus - upwind(m * dt * inv_dist, least) * m) - nu * inv_dist) * inv_width;
   }
 };
 
@@ -74,14 +76,14 @@ double Momentum::position(int component, int direction, int index) const {
 }
 
 void Momentum::coefficients(const Velocity& c, int component, int direction, int j, int k,
-                            Row row) const {
+                            Row row, double least_upwind) const {
   const Direction& m = metric_[component][direction];
   const std::ptrdiff_t s = layout_.stride(direction);
   const std::ptrdiff_t o = component == direction ? -s : -layout_.stride(component);
   const double* __restrict f = c.c[direction].data() + layout_.at(0, j, k);
   double* __restrict lower = row.lower;
   double* __restrict upper = row.upper;
-  const Stencil stencil{step_.a, step_.dt, step_.nu};
+  const Stencil stencil{step_.a, step_.dt, step_.nu, least_upwind};
   const int i0 = first(component, 0), i1 = last(component, 0);
   if (direction == 0) {
     const double* __restrict iw = m.inverse_width.data();
@@ -162,7 +164,7 @@ void Momentum::rightSide(const Velocity& vn, const Velocity& vm, const Velocity&
   for (int direction = 0; direction < 3; ++direction) {
     double* __restrict lo = lower_.data();
     double* __restrict up = upper_.data();
-    coefficients(c, component, direction, j, k, {lo, up});
+    coefficients(c, component, direction, j, k, {lo, up}, 0.0);
     const std::ptrdiff_t s = layout_.stride(direction);
     if (direction == 2 && component != 2 && (k == grid_.k_wing || k == grid_.k_wing - 1)) {
       // Where the wing lies between two points each of them sees the wall at half a cell instead.
@@ -224,7 +226,7 @@ void Momentum::sweepX(const Velocity& c, int component, int k, const WallVelocit
     double* __restrict d = delta_.c[component].data() + layout_.at(0, jb, k);
     for (int l = 0; l < lines; ++l) {
       Row row{lower_.data() + l * line, upper_.data() + l * line};
-      coefficients(c, component, 0, jb + l, k, row);
+      coefficients(c, component, 0, jb + l, k, row, kUpwindMin);
       if (wall_change) fixWingFaces(*wall_change, jb + l, row.lower, row.upper, d + l * layout_.sy);
     }
     const double* __restrict lo = lower_.data();
@@ -256,7 +258,7 @@ void Momentum::sweepY(const Velocity& c, int component, int k, const WallVelocit
   double* __restrict up = upper_.data();
   for (int j = j0; j <= j1; ++j) {
     double* __restrict d = delta_.c[component].data() + layout_.at(0, j, k);
-    coefficients(c, component, 1, j, k, {lo, up});
+    coefficients(c, component, 1, j, k, {lo, up}, kUpwindMin);
     if (wall_change) fixWingFaces(*wall_change, j, lo, up, d);
     double* __restrict g = gamma_.data() + j * layout_.sy;
     const double* __restrict gp = gamma_.data() + (j - 1) * layout_.sy;
@@ -299,7 +301,7 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
   const int kw = grid_.k_wing;
   double* lower = lower_.data();
   double* upper = upper_.data();
-  coefficients(c, component, 2, j, k, {lower, upper});
+  coefficients(c, component, 2, j, k, {lower, upper}, kUpwindMin);
   const bool is_end = towards > 0 ? k == (component == 2) : k == layout_.nz - 1;
   const std::ptrdiff_t row = layout_.at(0, j, k);
   const double* __restrict near = towards > 0 ? lower : upper;

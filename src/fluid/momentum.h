@@ -63,7 +63,8 @@ class Momentum {
   }
   double position(int component, int direction, int index) const;
 
-  void coefficients(const Velocity& c, int component, int direction, int j, int k, Row row) const;
+  void coefficients(const Velocity& c, int component, int direction, int j, int k, Row row,
+                    double least_upwind) const;
   void rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
                  const WallVelocity& wall_n, int component, int j, int k);
   void dissipate(const Velocity& vn, const Velocity& c, int component, int direction, int j, int k);
