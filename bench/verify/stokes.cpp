@@ -32,7 +32,7 @@ double shear(const NavierStokes& flow, double wall) {
 
 /// Largest error of the shear over [0.5, 1] of a plate set in motion at t = 0, relative.
 double firstError(int half_cells, int steps) {
-  NavierStokes flow(largePlate(6 * std::sqrt(kViscosity), half_cells), airOf(1, kViscosity), 1,
+  NavierStokes flow(largePlate(9 * std::sqrt(kViscosity), half_cells), airOf(1, kViscosity), 1,
                     kNoCourantLimit);
   const double dt = 1.0 / steps;
   WingMotion m;

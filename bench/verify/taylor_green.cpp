@@ -26,7 +26,8 @@ WingMotion motionOf(double t, bool moving) {
   return m;
 }
 
-/// The inner velocities after time 1 on n^3 cells, inertial decay taken out, minus the exact ones.
+/// Velocities after time 1 on n^3 cells minus the exact ones, in the inner half of the box: through
+/// the outer boundary the solver expects air near rest to pass, not vortices.
 std::vector<double> errors(int n, int steps, bool moving) {
   const Axis axis = uniformAxis(-1, 1, n);
   NavierStokes flow(makeGrid(axis, axis, axis, n / 2, false,
@@ -41,10 +42,11 @@ std::vector<double> errors(int n, int steps, bool moving) {
   }
   const WingMotion m = motionOf(T, moving);
   std::vector<double> e;
+  const int a = n / 4, b = n - n / 4;
   for (int c = 0; c < 3; ++c)
-    for (int k = 1; k < n; ++k)
-      for (int j = 1; j < n; ++j)
-        for (int i = 1; i < n; ++i) {
+    for (int k = a; k < b; ++k)
+      for (int j = a; j < b; ++j)
+        for (int i = a; i < b; ++i) {
           const Vector3d r(c == 0 ? axis.face[i] : axis.centre[i],
                            c == 1 ? axis.face[j] : axis.centre[j],
                            c == 2 ? axis.face[k] : axis.centre[k]);
@@ -80,11 +82,11 @@ void taylorGreen(Report& report) {
     report.curve({"taylor_green", "cells a side", "rms error of velocity", grid, {12, 24, 48},
                   {error[moving][0], error[moving][1], error[moving][2]}, true});
 
-    const int n = 24;  // time alone: against a run with a sixth of the finest step
-    const std::vector<double> best = errors(n, 384, moving);
-    const double a = rms(errors(n, 32, moving), &best), b = rms(errors(n, 64, moving), &best);
-    report.order(grid + ": order in time", "32, 64 steps, 24^3 cells", std::log2(a / b), 1.9);
-    report.curve({"taylor_green_time", "steps", "rms of time error", grid, {32, 64}, {a, b}, true});
+    const int n = 24;  // time alone: against a run with a quarter of the finest step
+    const std::vector<double> best = errors(n, 512, moving);
+    const double a = rms(errors(n, 64, moving), &best), b = rms(errors(n, 128, moving), &best);
+    report.order(grid + ": order in time", "64, 128 steps, 24^3 cells", std::log2(a / b), 1.9);
+    report.curve({"taylor_green_time", "steps", "rms of time error", grid, {64, 128}, {a, b}, true});
   }
   report.below("moving / fixed error", "48^3 cells", error[1][2] / error[0][2], 2);
 }

@@ -50,6 +50,7 @@ NavierStokes::NavierStokes(Grid grid, const Air& air, double reference_length, d
       convecting_(layout_),
       v_star_(layout_) {
   const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(layout_.nx) * layout_.ny;
+  row_.assign(layout_.nx, 0.0);
   phi_start_ = (plane + 7) / 8 * 8;
   phi_.assign(phi_start_ + plane * slab_.planes(), 0.0);
   added_mass_ = computeAddedMass();
@@ -256,6 +257,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
                 acceleration_, loads);
   frictionLoads(grid_, layout_, momentum_, v_star_, phi(), step_.a / air_.rho, next_.wall, air_.mu,
                 loads);
+  rimLoads(grid_, layout_, momentum_, convecting_, v_star_, air_.rho / step_.a, row_.data(), loads);
   sumLoads(slab_, loads);
   if (!loads.finite()) throw NumericalError("Navier-Stokes: the loads are not finite");
   evaluated_ = true;

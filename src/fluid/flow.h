@@ -87,6 +87,7 @@ class NavierStokes : public FluidModel {
   Velocity convecting_, v_star_;
   Array phi_;  ///< one plane of the process below, then this process's cells
   std::ptrdiff_t phi_start_;
+  Array row_;  ///< scratch of the loads
   Eigen::Matrix3d predicted_frame_;
   Eigen::Isometry3d predicted_place_ = Eigen::Isometry3d::Identity();
   Level next_;

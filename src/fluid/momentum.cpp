@@ -207,6 +207,20 @@ void Momentum::dissipate(const Velocity& vn, const Velocity& c, int component, i
   }
 }
 
+void Momentum::normalTransport(const Velocity& c, const Velocity& v_star, int j, double* out) {
+  const double* __restrict w = v_star.c[2].data() + layout_.at(0, j, grid_.k_wing);
+  std::fill(out, out + layout_.nx, 0.0);
+  for (int direction = 0; direction < 3; ++direction) {
+    const double* lo = lower_.data();
+    const double* up = upper_.data();
+    coefficients(c, 2, direction, j, grid_.k_wing, {lower_.data(), upper_.data()}, 0.0);
+    const std::ptrdiff_t s = layout_.stride(direction);
+    for (int i = 0; i < layout_.nx; ++i) {
+      if (grid_.isWing(i, j)) out[i] += lo[i] * (w[i - s] - w[i]) + up[i] * (w[i + s] - w[i]);
+    }
+  }
+}
+
 void Momentum::fixWingFaces(const WallVelocity& wall_change, int j, double* lower, double* upper,
                             double* d) const {
   for (int i = 0; i < layout_.nx; ++i) {
