@@ -1,5 +1,5 @@
 # The core: no ROS. One library per layer; dependencies point one way only:
-#   math <- insect <- fluid, flight, wing <- coupling <- run
+#   math <- insect <- fluid, flight, wing <- coupling <- run <- trim
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(BLAS REQUIRED)
 find_package(LAPACK REQUIRED)
@@ -41,4 +41,12 @@ core_layer(coupling monarch_insect monarch_fluid monarch_flight monarch_wing)
 core_layer(run monarch_coupling)
 target_link_libraries(monarch_run PRIVATE PkgConfig::YAML_CPP OpenSSL::Crypto nlohmann_json::nlohmann_json)
 target_compile_definitions(monarch_run PRIVATE MONARCH_FLIGHT_VERSION="${PROJECT_VERSION}")
-set(CORE_LAYERS monarch_math monarch_insect monarch_fluid monarch_flight monarch_wing monarch_coupling monarch_run)
+core_layer(trim monarch_run)
+find_package(Threads REQUIRED)
+target_link_libraries(monarch_trim PRIVATE PkgConfig::YAML_CPP Threads::Threads)
+set(CORE_LAYERS monarch_math monarch_insect monarch_fluid monarch_flight monarch_wing monarch_coupling monarch_run monarch_trim)
+
+# Programs of the core, one per file of src/programs.
+add_executable(trim src/programs/trim.cpp)
+target_link_libraries(trim PRIVATE monarch_trim)
+target_compile_definitions(trim PRIVATE MONARCH_CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config")

@@ -22,16 +22,19 @@ catkin_package(
   CATKIN_DEPENDS message_runtime ${ROS_PACKAGES}
   DEPENDS EIGEN3)
 
-# Debian compiles ROS with its own C++ standard; -Wpedantic does not apply to its headers.
-set(ROS_INCLUDES ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/include)
+# Headers of ROS are the system's: -Wpedantic does not apply to them. That the core does not include
+# them is checked in core.cmake.
+include_directories(include)
+include_directories(SYSTEM ${catkin_INCLUDE_DIRS})
 
 file(GLOB ros_sources CONFIGURE_DEPENDS src/ros_io/*.cpp src/viz/*.cpp)
 add_library(monarch_ros_io SHARED ${ros_sources})
-target_include_directories(monarch_ros_io PUBLIC include SYSTEM PUBLIC ${ROS_INCLUDES})
+#catkin_lint: ignore_once external_directory
+target_include_directories(monarch_ros_io SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include)
 target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES})
+add_dependencies(monarch_ros_io monarch_flight_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 target_compile_definitions(monarch_ros_io PRIVATE
   MONARCH_SOURCE_SHARE="${CMAKE_CURRENT_SOURCE_DIR}")
-add_dependencies(monarch_ros_io monarch_flight_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 
 # One executable per file of src/nodes, named after it; the targets carry a prefix because `fluid`,
 # `flight` and `wing` are also layers.
@@ -46,9 +49,14 @@ foreach(source ${node_sources})
 endforeach()
 add_custom_target(nodes DEPENDS ${NODE_TARGETS})
 
-set_target_properties(monarch_ros_io ${CORE_LAYERS} PROPERTIES INSTALL_RPATH "$ORIGIN")
-install(TARGETS monarch_ros_io ${CORE_LAYERS}
-  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+# Installed programs find their libraries without any environment.
+function(install_libraries)
+  set_target_properties(${ARGN} PROPERTIES INSTALL_RPATH "$ORIGIN")
+  install(TARGETS ${ARGN} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+endfunction()
+install_libraries(${CORE_LAYERS})
+set_target_properties(monarch_ros_io PROPERTIES INSTALL_RPATH "$ORIGIN")
+install(TARGETS monarch_ros_io LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(TARGETS ${NODE_TARGETS} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/monarch_flight/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
   FILES_MATCHING PATTERN "*.h")

@@ -4,6 +4,15 @@
 #include <cmath>
 
 namespace monarch_flight {
+namespace {
+
+void addSway(BodyState& body, int axis, const Coordinate& sway) {
+  body.x[axis] += sway.q;
+  body.v[axis] += sway.qd;
+  body.a[axis] += sway.qdd;
+}
+
+}  // namespace
 
 Coordinate FourierSeries::at(double frequency, double t) const {
   Coordinate sum{a0, 0.0, 0.0};
@@ -26,6 +35,8 @@ PrescribedState FourierMotion::at(double t) const {
   PrescribedState state;
   state.body.x = settings_.position + settings_.velocity * t;
   state.body.v = settings_.velocity;
+  addSway(state.body, 0, settings_.sway_x.at(f, t));
+  addSway(state.body, 2, settings_.sway_z.at(f, t));
   state.body = withPitch(state.body, settings_.pitch.at(f, t));
   state.angles.phi = settings_.phi.at(f, t);
   state.angles.psi = settings_.psi.at(f, t);

@@ -52,6 +52,18 @@ Case readCase(Section& root, Faults& faults) {
   return c;
 }
 
+/// The case of a document with every layer in it; `name` is what messages call it.
+Case resolvedCase(const YAML::Node& document, const std::string& name, Faults& faults) {
+  Section root(document, "", faults);
+  Case c = readCase(root, faults);
+  faults.throwIfAny(name);
+  YAML::Emitter emitter;
+  emitter << root.resolved();
+  c.resolved_yaml = kHeading + std::string(emitter.c_str()) + "\n";
+  c.sha256 = sha256Hex(c.resolved_yaml);
+  return c;
+}
+
 }  // namespace
 
 Case loadCase(const std::string& name_or_path, const CaseOverrides& overrides,
@@ -59,14 +71,14 @@ Case loadCase(const std::string& name_or_path, const CaseOverrides& overrides,
   const std::string path = findCase(name_or_path, config_dir);
   Faults faults;
   const YAML::Node document = assembleCase(path, overrides, config_dir, faults);
-  Section root(document, "", faults);
-  Case c = readCase(root, faults);
-  faults.throwIfAny(path);
-  YAML::Emitter emitter;
-  emitter << root.resolved();
-  c.resolved_yaml = kHeading + std::string(emitter.c_str()) + "\n";
-  c.sha256 = sha256Hex(c.resolved_yaml);
-  return c;
+  return resolvedCase(document, path, faults);
+}
+
+Case caseFromText(const std::string& yaml, const std::string& name, const CaseOverrides& overrides,
+                  const std::string& config_dir) {
+  Faults faults;
+  const YAML::Node document = layeredCase(caseDocument(yaml, name), overrides, config_dir, faults);
+  return resolvedCase(document, name, faults);
 }
 
 }  // namespace monarch_flight

@@ -16,19 +16,14 @@ std::vector<double> inRadians(std::vector<double> degrees) {
   return degrees;
 }
 
-/// A number (constant angle) or a map A0, AN, BN, multiple; in degrees.
-FourierSeries readSeries(Section& motion, const std::string& key, double frequency) {
+/// The map A0, AN, BN, multiple of a key, coefficients in `unit`.
+FourierSeries readHarmonics(Section& motion, const std::string& key, const std::string& unit,
+                            double frequency) {
   FourierSeries series;
-  if (motion.has(key) && !motion.isMap(key)) {
-    const double constant =
-        motion.number(key, {Bound::kAny, "deg", "or give A0, AN, BN, multiple"});
-    series.a0 = constant * kDegree;
-    return series;
-  }
   Section section = motion.section(key);
-  series.a0 = section.number("A0", {Bound::kAny, "deg", ""}) * kDegree;
-  series.an = inRadians(section.numbers("AN", "deg"));
-  series.bn = inRadians(section.numbers("BN", "deg"));
+  series.a0 = section.number("A0", {Bound::kAny, unit, ""});
+  series.an = section.numbers("AN", unit);
+  series.bn = section.numbers("BN", unit);
   series.multiple = section.integer("multiple", "1: the flapping frequency itself");
   section.finish();
   if (!section.clean()) return series;
@@ -47,20 +42,48 @@ FourierSeries readSeries(Section& motion, const std::string& key, double frequen
   return series;
 }
 
+/// A number (constant angle) or a map A0, AN, BN, multiple; in degrees.
+FourierSeries readAngle(Section& motion, const std::string& key, double frequency) {
+  FourierSeries series;
+  if (motion.has(key) && !motion.isMap(key)) {
+    series.a0 = motion.number(key, {Bound::kAny, "deg", "or give A0, AN, BN, multiple"});
+  } else {
+    series = readHarmonics(motion, key, "deg", frequency);
+  }
+  series.a0 *= kDegree;
+  series.an = inRadians(series.an);
+  series.bn = inRadians(series.bn);
+  return series;
+}
+
+/// Periodic part of the body's position [m]; none when the key is missing.
+FourierSeries readSway(Section& body, const std::string& key, double frequency) {
+  if (body.isMap(key)) return readHarmonics(body, key, "m", frequency);
+  if (body.has(key) && body.textOf(key) != "none") {
+    body.fault(key, " = '" + body.textOf(key) +
+                        "': must be none or a section A0, AN, BN, multiple [m]; correct it");
+  }
+  body.take(key);
+  body.put(key, std::string("none"));
+  return {};
+}
+
 CaseMotion readFourier(Section& section, bool bare_wing) {
   FourierMotionSettings settings;
   settings.frequency = section.number(
       "frequency",
       {Bound::kNonNegative, "Hz", "a monarch flaps at about 10.2; 0: constant angles"});
   const double f = settings.frequency;
-  settings.phi = readSeries(section, "phi_deg", f);
-  settings.psi = readSeries(section, "psi_deg", f);
-  settings.theta = readSeries(section, "theta_R_deg", f);
-  if (!bare_wing) settings.theta_A = readSeries(section, "theta_A_deg", f);
-  settings.pitch = readSeries(section, "theta_B_deg", f);
+  settings.phi = readAngle(section, "phi_deg", f);
+  settings.psi = readAngle(section, "psi_deg", f);
+  settings.theta = readAngle(section, "theta_R_deg", f);
+  if (!bare_wing) settings.theta_A = readAngle(section, "theta_A_deg", f);
+  settings.pitch = readAngle(section, "theta_B_deg", f);
   Section body = section.section("body");
   settings.position = body.vector3("position", "m");
   settings.velocity = body.vector3("velocity", "m/s");
+  settings.sway_x = readSway(body, "sway_x", f);
+  settings.sway_z = readSway(body, "sway_z", f);
   body.finish();
   CaseMotion result;
   result.frequency = f;

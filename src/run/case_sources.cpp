@@ -168,7 +168,24 @@ std::string findCase(const std::string& name_or_path, const std::string& config_
 
 YAML::Node assembleCase(const std::string& path, const CaseOverrides& overrides,
                         const std::string& config_dir, Faults& faults) {
-  const YAML::Node given = loadMap(path);
+  return layeredCase(loadMap(path), overrides, config_dir, faults);
+}
+
+YAML::Node caseDocument(const std::string& yaml, const std::string& name) {
+  YAML::Node node;
+  try {
+    node = YAML::Load(yaml);
+  } catch (const YAML::ParserException& e) {
+    throw InputError(name + ": is not YAML: " + e.what() + "; correct it");
+  }
+  if (!node.IsMap()) {
+    throw InputError(name + ": holds no keys; it must be a map as in docs/case_files.md");
+  }
+  return node;
+}
+
+YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,
+                       const std::string& config_dir, Faults& faults) {
   checkTwins(given, "", faults);  // before maps are merged
   YAML::Node root = overlaid(loadMap(fs::path(config_dir) / "defaults.yaml"), given);
   layBelow(root, "insect", "preset", ".yaml", config_dir, faults);

@@ -23,6 +23,12 @@ std::string findCase(const std::string& name_or_path, const std::string& config_
 YAML::Node assembleCase(const std::string& path, const CaseOverrides& overrides,
                         const std::string& config_dir, Faults& faults);
 
+/// The same for the top map of a case without a file.
+YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,
+                       const std::string& config_dir, Faults& faults);
+/// The top map of a case at hand as text; InputError when it is none.
+YAML::Node caseDocument(const std::string& yaml, const std::string& name);
+
 /// SHA-256 of a text, 64 hexadecimal digits.
 std::string sha256Hex(const std::string& text);
 

@@ -1,6 +1,7 @@
 #include "monarch_flight/viz/pressure_markers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "monarch_flight/ros_io/frames.h"
@@ -53,6 +54,30 @@ visualization_msgs::Marker wing(const SurfacePressure& surface, const PressureRe
   return out;
 }
 
+// Upright prism of square section in world axes, drawn in base_link; triangles keep their plain colours.
+visualization_msgs::Marker colourBar(const Eigen::Vector3d& foot, double height, double width,
+                                     const Eigen::Matrix3d& R_WB, const ros::Time& stamp) {
+  constexpr int kBars = 40;
+  visualization_msgs::Marker bar = blank(frames::kBaseLink, "legend", 0,
+                                         visualization_msgs::Marker::TRIANGLE_LIST, stamp);
+  bar.pose.orientation = toQuaternion(R_WB.transpose());
+  const auto corner = [&](int side, int level) {
+    const double angle = 0.25 * M_PI + 0.5 * M_PI * side, r = width / std::sqrt(2.0);
+    const Eigen::Vector3d p(r * std::cos(angle), r * std::sin(angle), height * level / kBars);
+    return toPoint(foot + p);
+  };
+  for (int i = 0; i < kBars; ++i) {
+    const std_msgs::ColorRGBA colour = divergingColour(2.0 * (i + 0.5) / kBars - 1.0);
+    for (int side = 0; side < 4; ++side) {
+      const geometry_msgs::Point a = corner(side, i), b = corner(side + 1, i),
+                                 c = corner(side + 1, i + 1), d = corner(side, i + 1);
+      bar.points.insert(bar.points.end(), {a, b, c, a, c, d});
+      bar.colors.insert(bar.colors.end(), {colour, colour});
+    }
+  }
+  return bar;
+}
+
 }  // namespace
 
 PressureReference pressureReference(const Insect& insect, const PrescribedMotion& motion,
@@ -84,30 +109,20 @@ visualization_msgs::MarkerArray pressureMarkers(const SurfacePressure& surface,
 visualization_msgs::MarkerArray pressureLegend(const PressureReference& reference, double span,
                                                const Eigen::Matrix3d& R_WB,
                                                const ros::Time& stamp) {
-  constexpr int kBars = 24, kNumbers = 5;
-  const double height = 0.9 * span, width = 0.07 * span;
-  const Eigen::Vector3d foot(0.0, -1.6 * span, -0.3 * span);  // world axes, from the body
-  const auto at = [&](double right, double up) {
-    return toPoint(R_WB.transpose() * (foot + Eigen::Vector3d(right, 0.0, up)));
-  };
+  constexpr int kNumbers = 5;
+  const double height = 0.9 * span;
+  // World axes, from the body; to the right for who looks from the east, as rviz/monarch.rviz does.
+  const Eigen::Vector3d right(-0.48, 0.88, 0.0);
+  const Eigen::Vector3d foot = 1.5 * span * right - 0.5 * span * Eigen::Vector3d::UnitZ();
   visualization_msgs::MarkerArray out;
-  visualization_msgs::Marker bar = blank(frames::kBaseLink, "legend", 0,
-                                         visualization_msgs::Marker::CUBE_LIST, stamp);
-  bar.scale.x = width;
-  bar.scale.y = width;
-  bar.scale.z = height / kBars;
-  for (int i = 0; i < kBars; ++i) {
-    const double s = (i + 0.5) / kBars;
-    bar.points.push_back(at(0.0, s * height));
-    bar.colors.push_back(divergingColour(2.0 * s - 1.0));
-  }
-  out.markers.push_back(bar);
-  const auto write = [&](const char* text, double right, double up) {
+  out.markers.push_back(colourBar(foot, height, 0.06 * span, R_WB, stamp));
+  const auto write = [&](const char* text, double along, double up) {
     visualization_msgs::Marker label =
         blank(frames::kBaseLink, "legend", static_cast<int>(out.markers.size()),
               visualization_msgs::Marker::TEXT_VIEW_FACING, stamp);
-    label.pose.position = at(right, up);
-    label.scale.z = 0.1 * span;
+    label.pose.position = toPoint(
+        R_WB.transpose() * (foot + along * right + up * Eigen::Vector3d::UnitZ()));
+    label.scale.z = 0.09 * span;
     label.text = text;
     out.markers.push_back(label);
   };
@@ -115,10 +130,10 @@ visualization_msgs::MarkerArray pressureLegend(const PressureReference& referenc
   for (int i = 0; i < kNumbers; ++i) {
     const double s = static_cast<double>(i) / (kNumbers - 1);
     std::snprintf(text, sizeof text, "%+.1f", kPressureRange * (2.0 * s - 1.0));
-    write(text, 0.22 * span, s * height);
+    write(text, 0.2 * span, s * height);
   }
-  std::snprintf(text, sizeof text, "Cp  (U_ref = %.2f m/s)", reference.speed);
-  write(text, 0.0, height + 0.15 * span);
+  std::snprintf(text, sizeof text, "Cp at U_ref = %.2f m/s", reference.speed);
+  write(text, 0.0, height + 0.14 * span);
   return out;
 }
 

@@ -53,7 +53,8 @@ sensor_msgs::PointCloud2 vortexCloud(const std::vector<VortexPoint>& points, con
       Eigen::Vector3d r = insect.right.mu + Q * Eigen::Vector3d(p.x, p.y, p.z);  // body axes
       if (image == 1) r.y() = -r.y();
       const Eigen::Vector3f f = (frdToFlu() * r).cast<float>();
-      const float shade = largest > 0.0f ? p.omega_y / largest : 0.0f;
+      const float share = largest > 0.0f ? std::abs(p.omega_y) / largest : 0.0f;
+      const float shade = std::copysign(std::sqrt(share), p.omega_y);
       const float values[6] = {f.x(), f.y(), f.z(), packed(divergingColour(shade)), p.q, p.omega_y};
       std::memcpy(out, values, sizeof values);
       out += sizeof values;

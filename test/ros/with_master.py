@@ -5,6 +5,7 @@ usage: with_master.py [--limit SECONDS] COMMAND [ARGUMENT ...]
 The exit code is that of the command; 124 when the limit ended it.
 """
 import argparse
+import ctypes
 import os
 import signal
 import socket
@@ -13,6 +14,12 @@ import sys
 import tempfile
 import time
 import xmlrpc.client
+
+
+def die_with_parent():
+    """In a child: killed when this program ends, however it ends."""
+    pr_set_pdeathsig = 1
+    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
 
 
 def free_port():
@@ -39,7 +46,8 @@ def start_master(environment, uri, port):
     log = open(os.path.join(environment["ROS_LOG_DIR"], "master.log"), "w")
     master = subprocess.Popen(
         ["/usr/bin/python3", "/usr/bin/rosmaster", "--core", "-p", str(port)],
-        env=environment, stdout=log, stderr=log, start_new_session=True)
+        env=environment, stdout=log, stderr=log, start_new_session=True,
+        preexec_fn=die_with_parent)
     deadline = time.time() + 20
     while time.time() < deadline and master.poll() is None:
         try:
@@ -56,6 +64,7 @@ def main():
     parser.add_argument("--limit", type=float, default=60.0)
     parser.add_argument("command", nargs=argparse.REMAINDER)
     arguments = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     with tempfile.TemporaryDirectory(prefix="monarch_test_") as folder:
         port = free_port()
         uri = "http://localhost:%d" % port
@@ -65,7 +74,8 @@ def main():
         environment.pop("ROS_IP", None)
         environment.pop("ROS_NAMESPACE", None)
         master = start_master(environment, uri, port)
-        command = subprocess.Popen(arguments.command, env=environment, start_new_session=True)
+        command = subprocess.Popen(arguments.command, env=environment, start_new_session=True,
+                                   preexec_fn=die_with_parent)
         try:
             return command.wait(arguments.limit)
         except subprocess.TimeoutExpired:

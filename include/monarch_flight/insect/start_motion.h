@@ -6,11 +6,14 @@
 
 namespace monarch_flight {
 
-/// Explicit start of one coordinate: it follows q0 + qd0 (t - t_start).
+/// Explicit start of one coordinate: it follows q0 + qd0 s + qdd0 s^2/2, s = t - t_start.
 struct StartValue {
   double q0 = 0.0;   ///< [m] or [rad]
   double qd0 = 0.0;  ///< [m/s] or [rad/s]
-  Coordinate at(double elapsed) const { return {q0 + qd0 * elapsed, qd0, 0.0}; }
+  double qdd0 = 0.0;  ///< [m/s^2] or [rad/s^2]
+  Coordinate at(double elapsed) const {
+    return {q0 + elapsed * (qd0 + 0.5 * qdd0 * elapsed), qd0 + qdd0 * elapsed, qdd0};
+  }
 };
 
 /// Which coordinates start explicitly; the others follow the motion below.
@@ -18,7 +21,8 @@ struct StartValues {
   std::optional<StartValue> x, z, pitch, theta_R;
 };
 
-/// A motion in which some coordinates leave from explicit initial values at a constant rate. With
+/// A motion in which some coordinates leave from explicit initial values at a
+/// constant acceleration, zero unless given. With
 /// an explicit pitch the body only pitches (BodyState's invariant holds).
 class StartMotion : public PrescribedMotion {
  public:

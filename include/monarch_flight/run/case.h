@@ -62,4 +62,9 @@ using CaseOverrides = std::map<std::string, std::string>;
 Case loadCase(const std::string& name_or_path, const CaseOverrides& overrides,
               const std::string& config_dir);
 
+/// The same for a case that is at hand as text (a resolved case, with some of its keys changed);
+/// relative paths in it are as they stand. `name` stands for the file in messages.
+Case caseFromText(const std::string& yaml, const std::string& name, const CaseOverrides& overrides,
+                  const std::string& config_dir);
+
 }  // namespace monarch_flight

@@ -22,7 +22,7 @@ PressureReference pressureReference(const Insect& insect, const PrescribedMotion
                                     const Air& air, double t_start, double duration);
 
 /// Colours run from -kPressureRange (blue) to +kPressureRange (red).
-constexpr double kPressureRange = 2.0;
+constexpr double kPressureRange = 1.0;
 
 /// Both sides of the right wing as triangles coloured by Cp in frame right_wing and, unless a bare
 /// wing, the mirror image in left_wing; the sides lie `lift` [m] off the wing's plane. Locked to the
@@ -31,7 +31,7 @@ visualization_msgs::MarkerArray pressureMarkers(const SurfacePressure& surface,
                                                 const PressureReference& reference, bool bare_wing,
                                                 double lift, const ros::Time& stamp);
 
-/// Colour bar with numbers, upright in world, beside the insect; moves with base_link. `span` is the
+/// Colour bar with numbers, upright in world, in front of the insect; moves with base_link. `span` is the
 /// wing's span [m] (all sizes scale with it), `R_WB` takes base_link components to world components.
 visualization_msgs::MarkerArray pressureLegend(const PressureReference& reference, double span,
                                                const Eigen::Matrix3d& R_WB, const ros::Time& stamp);

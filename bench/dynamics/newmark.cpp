@@ -1,0 +1,209 @@
+// The step-wise scheme: its order through the package's coordinator, and motions known exactly.
+#include <cmath>
+#include <memory>
+
+#include "dynamics/ode.h"
+#include "dynamics/rows.h"
+#include "monarch_flight/coupling/coordinator.h"
+#include "monarch_flight/coupling/participants.h"
+#include "monarch_flight/math/rotation.h"
+#include "monarch_flight/run/case.h"
+
+namespace monarch_flight::verify {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Air that bears given loads whatever the wing does.
+class GivenLoads : public FluidModel {
+ public:
+  explicit GivenLoads(double frequency) : frequency_(frequency) {}
+  void start(const WingMotion&, double dt) override { dt_ = dt, level_ = 0; }
+  Loads evaluate(const WingMotion&) override { return smoothLoads(frequency_, (level_ + 1) * dt_); }
+  void commit() override { ++level_; }
+  std::vector<char> save() const override { return {}; }
+  void restore(const std::vector<char>&) override {}
+  Matrix6d addedMass() const override { return Matrix6d::Zero(); }
+  FluidReport report() const override { return {}; }
+  long cells() const override { return 0; }
+  SurfacePressure surfacePressure() const override { return {}; }
+  std::vector<VortexPoint> vortices(double, int) const override { return {}; }
+
+ private:
+  double frequency_, dt_ = 0.0;
+  int level_ = 0;
+};
+
+/// The motion, with accelerations at t = 0 that satisfy the equations of motion.
+class ConsistentStart : public PrescribedMotion {
+ public:
+  ConsistentStart(std::shared_ptr<const PrescribedMotion> base, PrescribedState start)
+      : base_(std::move(base)), start_(std::move(start)) {}
+  PrescribedState at(double t) const override { return t == 0.0 ? start_ : base_->at(t); }
+
+ private:
+  std::shared_ptr<const PrescribedMotion> base_;
+  PrescribedState start_;
+};
+
+class LastStep : public StepSink {
+ public:
+  void onStep(const CommittedStep& step) override { last = step; }
+  void onEnd(const std::string& failure) override { why = failure; }
+  CommittedStep last;
+  std::string why;
+};
+
+/// (x, z, theta_B, theta_R) after one flap by the package's coordinator, flight and wing.
+Eigen::Vector4d coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotion> motion,
+                            int steps) {
+  CoupledModel model{c.insect};
+  model.motion = std::move(motion);
+  model.free = kAllFree;
+  model.newmark.dt = c.time.period / steps;
+  model.gravity = c.gravity;
+  model.steps = static_cast<std::uint32_t>(steps);
+  CouplingSettings settings = c.coupling;
+  settings.prescribed_steps = 0;
+  settings.tolerance = 1e-13;
+  settings.load_tolerance = 1e-9;
+  FluidParticipant fluid(model, std::make_unique<GivenLoads>(1.0 / c.time.period));
+  FlightParticipant flight(model);
+  WingParticipant wing(model);
+  LastStep sink;
+  const bool stop = false;
+  const auto outcome = Coordinator(model, settings, fluid, flight, wing, 1).run({&sink}, stop);
+  if (!outcome.complete) throw std::runtime_error("coupled flap: " + outcome.failure);
+  const Interface& end = sink.last.interface;
+  return {end.body.x.x(), end.body.x.z(), end.body.pitch.q, end.theta_R.q};
+}
+
+/// Error after one flap for falling time steps, and the order between the last two.
+void addOrder(const std::string& name, const Case& c,
+              const std::shared_ptr<const PrescribedMotion>& motion, const Eigen::Vector4d& exact,
+              double expected, double bound, DynamicsRows& rows) {
+  constexpr int kSteps[] = {250, 500, 1000, 2000};
+  double before = 0.0, order = 0.0, error = 0.0;
+  for (int steps : kSteps) {
+    error = (coupledFlap(c, motion, steps) - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff();
+    order = std::log2(before / error);
+    rows.push_back({"newmark", name + ": largest relative error after a flap",
+                    std::to_string(steps) + " steps a flap", error, 0.0, error, kStated});
+    before = error;
+  }
+  rows.push_back({"newmark", name + ": order", "1000 and 2000 steps a flap", order, expected,
+                  std::abs(order - expected), bound});
+}
+
+/// The hinge alone: theta = theta_0 + A cos(sqrt(kappa / J_yy) t).
+void addPendulum(const Case& c, DynamicsRows& rows) {
+  const double rate = std::sqrt(c.insect.kappa / c.insect.right.J(1, 1));
+  const double period = 2.0 * M_PI / rate, amplitude = 0.4;
+  double before = 0.0, order = 0.0;
+  for (int steps : {250, 500, 1000}) {
+    Newmark newmark;
+    newmark.dt = period / steps;
+    const WingPitchSolver solver(c.insect, 0.0, newmark);
+    JointAngles angles;
+    angles.theta = {c.insect.theta_0 + amplitude, 0.0, -rate * rate * amplitude};
+    // The trapezoidal rule keeps the amplitude and turns by 2 atan(rate dt / 2) a step.
+    const double turn = 2.0 * std::atan(0.5 * rate * newmark.dt);
+    double worst = 0.0;
+    for (int n = 1; n <= 10 * steps; ++n) {
+      angles.theta = solver.step(angles.theta, BodyState(), angles, Loads());
+      worst = std::max(
+          worst, std::abs(angles.theta.q - c.insect.theta_0 - amplitude * std::cos(n * turn)));
+    }
+    const double error = amplitude * std::abs(std::cos(10 * steps * turn - 0.25 * M_PI) -
+                                              std::cos(0.25 * M_PI));  // phase error, exact scheme
+    rows.push_back({"pendulum", "wing on its hinge, 10 periods, against the scheme's closed form",
+                    std::to_string(steps) + " steps a period", worst, 0.0, worst / amplitude,
+                    1e-9});
+    order = std::log2(before / error);
+    before = error;
+  }
+  rows.push_back({"pendulum", "order of the phase against the exact motion",
+                  "500 and 1000 steps a period", order, 2.0, std::abs(order - 2.0), 0.01});
+}
+
+/// Free fall without rotation (the scheme is exact) and with it (mass centre on a parabola).
+void addFreeFall(const Case& c, DynamicsRows& rows) {
+  const JointAngles angles = [&] {
+    JointAngles still = c.motion->at(0.01).angles;
+    for (Coordinate* q : {&still.phi, &still.psi, &still.theta, &still.theta_A}) {
+      q->qd = q->qdd = 0.0;
+    }
+    return still;
+  }();
+  Newmark newmark;
+  newmark.dt = 1e-4;
+  const FlightSolver solver(c.insect, c.gravity, kAllFree, newmark);
+  BodyState body;
+  body.v = {1.3, 0.0, -0.562};
+  body.a = {0.0, 0.0, c.gravity};
+  body = withPitch(body, {0.3, 0.0, 0.0});
+  constexpr int kSteps = 1000;
+  for (int n = 0; n < kSteps; ++n) body = solver.step(body, body, body, angles, Loads());
+  const double t = kSteps * newmark.dt;
+  const Vector3d exact(1.3 * t, 0.0, -0.562 * t + 0.5 * c.gravity * t * t);
+  const double error = (body.x - exact).norm() + std::abs(body.pitch.q - 0.3);
+  rows.push_back({"free fall", "position and pitch after 0.1 s, wings still", "1000 steps, Newmark",
+                  body.x.z(), exact.z(), error / exact.norm(), 1e-12});
+
+  const auto joints = insectMotion(c.insect.beta, BodyState(), angles).joints;
+  const FreeInsect insect(
+      c.insect, c.gravity, [joints](double) { return joints; },
+      [](double) {
+        return std::array<Vector6d, 3>{Vector6d::Zero(), Vector6d::Zero(), Vector6d::Zero()};
+      });
+  BodyState start = withPitch(BodyState(), {0.3, 0.0, 0.0});
+  start.v = {1.3, 0.1, -0.562};
+  start.Omega_B = {0.0, 40.0, 0.0};
+  OdeState y = FreeInsect::state(start);
+  Vector3d r0, v0;
+  double worst = 0.0, spin = 0.0;
+  integrate(insect, y, 0.0, t, kSteps, [&](const OdeState& s, double at) {
+    const InsectMotion m = insect.motion(s, at);
+    const Vector3d r = insect.dynamics().massCentre(m);
+    if (at == 0.0) {
+      r0 = r;
+      v0 = insect.dynamics().linearMomentum(m) / c.insect.totalMass();
+    }
+    const Vector3d parabola = r0 + at * v0 + Vector3d(0.0, 0.0, 0.5 * c.gravity * at * at);
+    worst = std::max(worst, (r - parabola).norm());
+    spin = std::max(spin, std::abs(m.body.Omega_B.y() - 40.0));
+  });
+  rows.push_back({"free fall", "mass centre against the parabola, turning at 40 rad/s",
+                  "1000 steps, order 8", worst, 0.0, worst / exact.norm(), 1e-12});
+  rows.push_back({"free fall", "rate of turn of the rigid insect", "1000 steps, order 8", spin,
+                  40.0, spin / 40.0, 1e-12});
+}
+
+}  // namespace
+
+DynamicsRows checkNewmark(const DynamicsFolders& folders) {
+  const Case c = loadCase("climb", {}, folders.config);
+  const double f = 1.0 / c.time.period;
+  const LongitudinalFlight flight(c.insect, c.gravity, c.motion,
+                                  [f](double t) { return smoothLoads(f, t); });
+  DynamicsRows rows;
+  OdeState y = flight.state(0.0);
+  const PrescribedState start = flight.motion(y, 0.0);
+  const auto ignore = [](const OdeState&, double) {};
+  integrate(flight, y, 0.0, c.time.period, 4000, ignore);
+  const Eigen::Vector4d exact(y[0], y[1], y[2], y[3]);
+  addOrder("accelerations known at the start", c,
+           std::make_shared<ConsistentStart>(c.motion, start), exact, 2.0, 0.1, rows);
+  addOrder("accelerations of the prescribed motion at the start", c, c.motion, exact, 1.0, kStated,
+           rows);
+  return rows;
+}
+
+DynamicsRows checkExactMotions(const DynamicsFolders& folders) {
+  DynamicsRows rows;
+  addPendulum(loadCase("hinge", {}, folders.config), rows);
+  addFreeFall(loadCase("climb", {}, folders.config), rows);
+  return rows;
+}
+
+}  // namespace monarch_flight::verify

@@ -1,0 +1,21 @@
+// scripts/trim without ROS: finds a periodic flight of a case.
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/trim/command.h"
+
+int main(int argc, char** argv) {
+  try {
+    const char* config = std::getenv("MONARCH_CONFIG");
+    return monarch_flight::runTrim(monarch_flight::trimCommand({argv + 1, argv + argc}),
+                                   config != nullptr ? config : MONARCH_CONFIG_DIR, std::cout);
+  } catch (const monarch_flight::InputError& e) {
+    std::cerr << "trim: " << e.what() << std::endl;
+    return 2;
+  } catch (const std::exception& e) {
+    std::cerr << "trim: " << e.what() << std::endl;
+    return 1;
+  }
+}

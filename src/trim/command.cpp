@@ -1,0 +1,104 @@
+#include "monarch_flight/trim/command.h"
+
+#include <cmath>
+#include <fstream>
+#include <ostream>
+
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/run/output_file.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;
+constexpr int kShortRunIn = 10;  // steps, the paper's start, where the air has no memory
+
+std::size_t size(const Case& c, const TrimOptions& options) {
+  const std::size_t states = (c.free.x ? 1u : 0u) + (c.free.z ? 1u : 0u) +
+                             (c.free.pitch ? 2u : 0u) + (c.free.wing_pitch ? 2u : 0u);
+  return states + options.parameters.size();
+}
+
+Eigen::MatrixXd readJacobian(const std::string& path, const Case& c, const TrimOptions& options) {
+  std::ifstream in(path);
+  const auto columns = static_cast<Eigen::Index>(size(c, options));
+  const Eigen::Index rows = columns -
+                            static_cast<Eigen::Index>(options.parameters.size()) +
+                            static_cast<Eigen::Index>(options.targets.size());
+  Eigen::Index found_rows = 0, found_columns = 0;
+  Eigen::MatrixXd J(rows, columns);
+  in >> found_rows >> found_columns;
+  if (!in || found_rows != rows || found_columns != columns) {
+    throw InputError("jacobian:=" + path + ": must hold a matrix of " + std::to_string(rows) + " x " +
+                     std::to_string(columns) +
+                     ", as a trim with the same fit and targets writes it; give that one");
+  }
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (Eigen::Index j = 0; j < columns; ++j) in >> J(i, j);
+  }
+  if (!in || !J.allFinite()) {
+    throw InputError("jacobian:=" + path + ": holds too few numbers; write it again");
+  }
+  return J;
+}
+
+void write(const std::string& path, const std::string& text) {
+  OutputFile file(path);
+  file.write(text);
+  file.finish();
+}
+
+void writeResult(const std::string& path, const FlapMap& map, const TrimOptions& options,
+                 const TrimResult& result, int flaps) {
+  const double per_flap = map.baseCase().time.stepsPerFlap();
+  const int run_in = map.runIn() > 0 ? static_cast<int>(std::lround(map.runIn() * per_flap))
+                                     : kShortRunIn;
+  write(path, trimmedCase(map, options, result, run_in, flaps));
+  const Eigen::MatrixXd& J = result.newton.jacobian;
+  std::ostringstream text;
+  text.precision(17);
+  text << J.rows() << ' ' << J.cols() << '\n' << J << '\n';
+  write(path + ".jacobian", text.str());
+}
+
+void printFlight(std::ostream& out, const Flight& flight) {
+  out << "flap  climb deg  speed m/s  theta_B mean, swing, largest deg  theta_R swing deg  change\n";
+  int number = 0;
+  for (const Flap& flap : flight.flaps) {
+    const FlapState change = (flap.end - flap.start).cwiseQuotient(trimScales());
+    char line[160];
+    std::snprintf(line, sizeof line, "%4d  %9.2f  %9.3f  %12.2f %6.2f %8.2f  %22.2f  %10.3g\n",
+                  ++number, flap.climb * kDegrees, flap.speed, flap.theta_B_mean * kDegrees,
+                  flap.theta_B_swing * kDegrees, flap.theta_B_largest * kDegrees,
+                  flap.theta_R_swing * kDegrees, change.cwiseAbs().maxCoeff());
+    out << line;
+  }
+  if (!flight.complete) out << "the flight ended: " << flight.failure << '\n';
+  out << "wall time " << flight.wall_s << " s\n";
+}
+
+}  // namespace
+
+int runTrim(TrimCommand command, const std::string& config_dir, std::ostream& out) {
+  const Case c = loadCase(command.case_name, command.overrides, config_dir);
+  TrimOptions& options = command.options;
+  if (!command.jacobian_file.empty()) {
+    options.jacobian = readJacobian(command.jacobian_file, c, options);
+    options.newton.broyden = true;
+  }
+  const FlapMap map(c, config_dir, options.parameters, options.run_in);
+  const auto keep = [&](const TrimResult& result) {
+    writeResult(command.out, map, options, result, command.fly > 0 ? command.fly : 6);
+  };
+  if (!command.out.empty()) options.better = keep;
+  const TrimResult result = trim(c, config_dir, options, out);
+  printTrim(out, map, options, result);
+  if (!command.out.empty()) {
+    keep(result);
+    out << "case: " << command.out << std::endl;
+  }
+  if (command.fly > 0) printFlight(out, map.fly(result.point, command.fly));
+  return result.newton.converged ? 0 : 1;
+}
+
+}  // namespace monarch_flight

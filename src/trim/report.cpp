@@ -1,0 +1,126 @@
+// What a trim says of its result: a table for people and a case file.
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <ostream>
+#include <sstream>
+
+#include "monarch_flight/trim/trim.h"
+#include "trim/case_edit.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;
+
+std::string number(double value, int digits = 6) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+std::string targetText(const TrimTarget& target, const Flap& flap) {
+  const bool angle = target.kind != TrimTarget::kSpeed;
+  const double unit = angle ? kDegrees : 1.0;
+  return std::string(TrimTarget::name(target.kind)) + " " + number(target.value * unit, 4) +
+         (angle ? " deg" : " m/s") + " (reached " + number(target.of(flap) * unit, 4) + ")";
+}
+
+std::string targetsText(const TrimOptions& options, const TrimResult& result) {
+  std::string text;
+  for (const TrimTarget& target : options.targets) {
+    text += (text.empty() ? "" : ", ") + targetText(target, result.flap);
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+double residual(const TrimResult& result) {
+  return result.newton.residual.periodicity.cwiseAbs().maxCoeff();
+}
+
+std::string airText(const FlapMap& map) {
+  const Case& c = map.baseCase();
+  if (c.fluid == FluidKind::kQuasiSteady) return "quasi-steady air";
+  return "Navier-Stokes air, grid " + c.grid.level + ", run-in of " + std::to_string(map.runIn()) +
+         " flaps";
+}
+
+void printModes(std::ostream& out, const FlapMap& map, const TrimResult& result) {
+  out << "Floquet multipliers a flap, and their modes (";
+  for (int i : map.active()) out << ' ' << kStateNames[i];
+  out << " ), in units of";
+  for (int i : map.active()) out << ' ' << trimScales()(i) << ' ' << kStateUnits[i];
+  out << ":\n";
+  for (const FloquetMode& mode : result.floquet) {
+    out << "  |" << number(std::abs(mode.multiplier), 4) << "|  " << number(mode.multiplier.real(), 4)
+        << (mode.multiplier.imag() < 0 ? " - " : " + ")
+        << number(std::abs(mode.multiplier.imag()), 4) << "i :";
+    for (const auto& component : mode.mode) {
+      out << "  " << number(std::abs(component), 2) << '@'
+          << std::lround(std::arg(component) * kDegrees);
+    }
+    out << '\n';
+  }
+}
+
+}  // namespace
+
+void printTrim(std::ostream& out, const FlapMap& map, const TrimOptions& options,
+               const TrimResult& result) {
+  const Flap& flap = result.flap;
+  out << "trim of " << map.baseCase().name << " (" << airText(map) << "): "
+      << result.newton.reason << "\n";
+  out << "  residual        " << number(residual(result), 3) << " (largest change over a flap, scaled)\n";
+  out << "  cost            " << result.newton.iterations << " iterations, "
+      << result.newton.evaluations << " evaluations, " << result.flaps_flown << " flaps, "
+      << number(result.wall_s, 3) << " s\n";
+  for (int i : map.active()) {
+    out << "  " << kStateNames[i] << std::string(16 - std::string(kStateNames[i]).size(), ' ')
+        << number(result.point.state(i), 8) << ' ' << kStateUnits[i] << '\n';
+  }
+  for (std::size_t i = 0; i < map.parameters().size(); ++i) {
+    const TrimParameter& p = map.parameters()[i];
+    out << "  " << p.name << std::string(16 - p.name.size(), ' ')
+        << number(result.point.parameters(static_cast<Eigen::Index>(i)), 8) << ' ' << p.unit
+        << " (range " << number(p.low) << " to " << number(p.high) << ")\n";
+  }
+  out << "  fitted to       " << targetsText(options, result) << '\n';
+  out << "  climb angle     " << number(flap.climb * kDegrees, 4) << " deg\n  speed           "
+      << number(flap.speed, 4) << " m/s\n  body pitch      mean "
+      << number(flap.theta_B_mean * kDegrees, 4) << ", swing "
+      << number(flap.theta_B_swing * kDegrees, 4) << " deg\n  wing pitch      swing "
+      << number(flap.theta_R_swing * kDegrees, 4) << " deg\n";
+  printModes(out, map, result);
+}
+
+std::string trimmedCase(const FlapMap& map, const TrimOptions& options, const TrimResult& result,
+                        int run_in_steps, int flaps) {
+  CaseEdit edit(map.caseText(result.point, run_in_steps, flaps));
+  edit.set({"name"}, map.baseCase().name + "_trimmed");
+  edit.set({"description"}, "Periodic flight found by trim from the case " + map.baseCase().name);
+  const std::string how =
+      "fitted by trim to periodic flight in " + airText(map) + "; residual " +
+      number(residual(result), 3) + " (scaled) over a flap";
+  std::map<std::string, std::string> comments;
+  for (const TrimParameter& p : map.parameters()) {
+    std::string path;
+    for (const std::string& key : p.path) {
+      if (!std::isdigit(static_cast<unsigned char>(key[0]))) path += (path.empty() ? "" : "/") + key;
+    }
+    comments[path] = "status: fitted by trim in " + airText(map) + " within " + number(p.low) +
+                     " to " + number(p.high) + " " + p.unit + ",\nto " +
+                     targetsText(options, result);
+  }
+  const Case& c = map.baseCase();
+  if (c.free.x || c.free.z) comments["motion/body"] = "status: " + how;
+  if (c.free.pitch) comments["motion/theta_B_deg"] = "Run-in and start; status: " + how;
+  if (c.free.wing_pitch) comments["motion/theta_R_deg"] = "Run-in and start; status: " + how;
+  comments["coupling/prescribed_steps"] = "The run-in: these steps fly the periodic motion above.";
+  std::ostringstream head;
+  head << "# Made by scripts/trim (docs/trim.md) from the case " << c.name
+       << ". Numbers without a comment are that case's.\n# Largest Floquet multiplier "
+       << number(std::abs(result.floquet.front().multiplier), 4) << " a flap.\n";
+  return head.str() + edit.text(comments);
+}
+
+}  // namespace monarch_flight
