@@ -71,9 +71,13 @@ void compare(Report& report, const Shape& shape) {
     const std::string name = std::string(shape.name) + ": " + e.name;
     const double coarse = m[0](e.row, e.column), fine = m[1](e.row, e.column);
     report.near(name, "24 cells across", fine, e.exact, e.bound);
-    report.curve({"added_mass", "cells across the shorter side", "relative error", name,
+    report.curve({"added_mass",
+                  "cells across the shorter side",
+                  "relative error",
+                  name,
                   {cells[0], cells[1]},
-                  {std::abs(coarse / e.exact - 1), std::abs(fine / e.exact - 1)}, true});
+                  {std::abs(coarse / e.exact - 1), std::abs(fine / e.exact - 1)},
+                  true});
     report.order(name + ", order", "12, 24 cells",
                  std::log2(std::abs((coarse - e.exact) / (fine - e.exact))), 0.8);
   }

@@ -14,8 +14,7 @@ Curve friction(double length, int cells) {
   const Axis y = coreAxis(span / 2, 8, 1.4, 6), z = coreAxis(0.1, cells / 4, growth, 6);
   std::vector<std::uint8_t> wing;
   for (double b : y.centre)
-    for (double a : x.centre)
-      wing.push_back(std::abs(a) < 0.5 * length && std::abs(b) < span / 2);
+    for (double a : x.centre) wing.push_back(std::abs(a) < 0.5 * length && std::abs(b) < span / 2);
   NavierStokes flow(makeGrid(x, y, z, z.n() / 2, false, wing), airOf(1, kViscosity), 1,
                     kNoCourantLimit);
   auto motion = [](double t) {
@@ -26,8 +25,13 @@ Curve friction(double length, int cells) {
   };
   const double dt = 0.8 / cells, duration = 3 + length;
   fly(flow, motion, dt, static_cast<int>(std::lround(duration / dt)));
-  Curve curve{"blasius", "Re_x / 1000", "friction / Blasius",
-              text("length %g, %g cells a unit", length, cells), {}, {}, false};
+  Curve curve{"blasius",
+              "Re_x / 1000",
+              "friction / Blasius",
+              text("length %g, %g cells a unit", length, cells),
+              {},
+              {},
+              false};
   const int j = y.n() / 2, k = z.n() / 2;
   for (int i = 1; i < x.n(); ++i) {
     const double from_edge = 0.5 * length - x.face[i];  // the leading edge is the forward one

@@ -42,7 +42,8 @@ std::vector<const Subject*> chosen(const std::vector<std::string>& wanted) {
   for (const std::string& name : wanted) {
     bool known = name == "all";
     for (const Subject& s : kSubjects) known = known || name == s.name;
-    if (!known) throw InputError("unknown subject \"" + name + "\": must be all or one of" + names());
+    if (!known)
+      throw InputError("unknown subject \"" + name + "\": must be all or one of" + names());
   }
   return list;
 }

@@ -65,8 +65,13 @@ void compare(Report& report, double cells_per_chord, std::vector<double>& worst)
 void momentumBalance(Report& report) {
   std::vector<double> worst;
   for (double cells : {12.0, 16.0, 24.0}) compare(report, cells, worst);
-  report.curve({"momentum_balance", "cells a chord", "largest difference / peak force",
-                "force vector", {12, 16, 24}, worst, true});
+  report.curve({"momentum_balance",
+                "cells a chord",
+                "largest difference / peak force",
+                "force vector",
+                {12, 16, 24},
+                worst,
+                true});
 }
 
 }  // namespace monarch_flight::verify

@@ -35,19 +35,18 @@ class Box {
 
  private:
   const Axis& axis(int d) const { return d == 0 ? g_.x : d == 1 ? g_.y : g_.z; }
-  double v(int c, int i, int j, int k) const {
-    return f_.velocity().c[c][f_.layout().at(i, j, k)];
-  }
+  double v(int c, int i, int j, int k) const { return f_.velocity().c[c][f_.layout().at(i, j, k)]; }
   Eigen::Vector3d centre(int i, int j, int k) const {
-    return 0.5 * Eigen::Vector3d(v(0, i, j, k) + v(0, i + 1, j, k), v(1, i, j, k) + v(1, i, j + 1, k),
-                          v(2, i, j, k) + v(2, i, j, k + 1));
+    return 0.5 * Eigen::Vector3d(v(0, i, j, k) + v(0, i + 1, j, k),
+                                 v(1, i, j, k) + v(1, i, j + 1, k),
+                                 v(2, i, j, k) + v(2, i, j, k + 1));
   }
   /// What the face d of the cell q gives to the air on its lower side.
   Eigen::Vector3d face(int d, const int q[3], const GridVelocity& grid) const {
     int low[3] = {q[0], q[1], q[2]};
     --low[d];
-    const double area = axis((d + 1) % 3).width[q[(d + 1) % 3]] *
-                        axis((d + 2) % 3).width[q[(d + 2) % 3]];
+    const double area =
+        axis((d + 1) % 3).width[q[(d + 1) % 3]] * axis((d + 2) % 3).width[q[(d + 2) % 3]];
     const double gap = axis(d).gap[q[d]], share = 0.5 * axis(d).width[low[d]] / gap;
     const Eigen::Vector3d a = centre(low[0], low[1], low[2]), b = centre(q[0], q[1], q[2]);
     Eigen::Vector3d u = a + share * (b - a);
@@ -58,8 +57,9 @@ class Box {
     const Layout& l = f_.layout();
     const double p0 = f_.pressure()[l.at(low[0], low[1], low[2])];
     const double p1 = f_.pressure()[l.at(q[0], q[1], q[2])];
-    Eigen::Vector3d t = mu_ * (b - a) / gap - rho_ * flux * u;  // the other half of the stress integrates
-    t[d] -= p0 + share * (p1 - p0);                      // to nothing over a closed surface
+    Eigen::Vector3d t =
+        mu_ * (b - a) / gap - rho_ * flux * u;  // the other half of the stress integrates
+    t[d] -= p0 + share * (p1 - p0);             // to nothing over a closed surface
     return area * t;
   }
 

@@ -41,9 +41,8 @@ FlapSeries flown(const GridSettings& grid, int steps_per_flap, int flaps) {
 const FlapSeries& monarchSeries(const GridSettings& g, int steps_per_flap, int flaps) {
   static std::map<std::string, FlapSeries> known;
   std::ostringstream key;
-  key << g.cells_per_chord << ' ' << g.first_cell << ' ' << g.growth_plane << ' '
-      << g.growth_normal << ' ' << g.far_field << ' ' << g.outer << ' ' << steps_per_flap << ' '
-      << flaps;
+  key << g.cells_per_chord << ' ' << g.first_cell << ' ' << g.growth_plane << ' ' << g.growth_normal
+      << ' ' << g.far_field << ' ' << g.outer << ' ' << steps_per_flap << ' ' << flaps;
   const auto found = known.find(key.str());
   if (found != known.end()) return found->second;
   return known.emplace(key.str(), flown(g, steps_per_flap, flaps)).first->second;

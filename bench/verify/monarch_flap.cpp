@@ -64,8 +64,13 @@ void study(Report& report, const char* what, const double h[3], const FlapSeries
       report.state(name + ": peak", resolution, peak[2], p.value);
     }
     report.state(name + ": order of mean, of peak", resolution, m.order, p.order);
-    Curve c{std::string("monarch_flap_") + what, what, "(value - extrapolated) / peak", q.name,
-            {}, {}, false};
+    Curve c{std::string("monarch_flap_") + what,
+            what,
+            "(value - extrapolated) / peak",
+            q.name,
+            {},
+            {},
+            false};
     for (int i = 0; i < 3; ++i) {
       c.x.push_back(h[i]);
       c.y.push_back((mean[i] - m.value) / p.value);

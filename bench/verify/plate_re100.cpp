@@ -57,8 +57,7 @@ Coefficients steady(double degrees, double cells_per_chord, double far_field) {
   return {-F.z(), -F.x(), std::abs(F.x() / before.x() - 1)};  // 1/2 rho U^2 S = 1
 }
 
-void compare(Report& report, double degrees, const std::string& resolution,
-             const Coefficients& c) {
+void compare(Report& report, double degrees, const std::string& resolution, const Coefficients& c) {
   const double cl = measured("flat_plate_ar2_re100_cl_vs_alpha.dat", degrees);
   const double cd = measured("flat_plate_ar2_re100_cd_vs_alpha.dat", degrees);
   const std::string at = text("%g deg: ", degrees);
@@ -90,12 +89,15 @@ void plateRe100(Report& report) {
   report.state("30 deg: order of CL, of CD", "12, 16, 22 cells", l.order, d.order);
   for (double far : {6.0, 16.0}) {
     const Coefficients c = steady(30, 16, far);
-    report.state("30 deg: CL against box 10", text("16 cells a chord, box %g", far), c.lift, lift[1]);
-    report.state("30 deg: CD against box 10", text("16 cells a chord, box %g", far), c.drag, drag[1]);
+    report.state("30 deg: CL against box 10", text("16 cells a chord, box %g", far), c.lift,
+                 lift[1]);
+    report.state("30 deg: CD against box 10", text("16 cells a chord, box %g", far), c.drag,
+                 drag[1]);
   }
   for (double degrees : {60.0, 90.0}) {
     for (int i = 0; i < 2; ++i) {
-      compare(report, degrees, text("%g cells a chord, box 10", cells[i]), steady(degrees, cells[i], 10));
+      compare(report, degrees, text("%g cells a chord, box 10", cells[i]),
+              steady(degrees, cells[i], 10));
     }
   }
   const std::vector<double> spacing(h, h + 3);

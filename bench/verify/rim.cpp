@@ -57,9 +57,8 @@ void rim(Report& report) {
          return flapAndPitch(Vector3d::Zero(), Vector3d::Zero(), Vector3d(0, 0, z[1]),
                              Vector3d(0, 0, z[2]));
        }},
-      {"pitching", Planform::rectangle(1, 2, 0.3, -1), [](double t) {
-         return flapAndPitch(Vector3d::Zero(), oscillation(0.7, kOmega, t));
-       }}};
+      {"pitching", Planform::rectangle(1, 2, 0.3, -1),
+       [](double t) { return flapAndPitch(Vector3d::Zero(), oscillation(0.7, kOmega, t)); }}};
   const double cells[3] = {14, 20, kStandard}, h[3] = {1 / 14.0, 1 / 20.0, 1 / kStandard};
   for (const Case& c : cases) {
     double force[3], moment[3];
@@ -72,13 +71,17 @@ void rim(Report& report) {
       report.state(std::string(c.name) + ": M_y, rms", resolution, p.moment, 0);
     }
     const Extrapolated f = extrapolate(h, force), m = extrapolate(h, moment);
-    report.near(std::string(c.name) + ": F_z of standard", "14, 20, 28 cells", force[2], f.value, 0.03);
-    report.near(std::string(c.name) + ": M_y of standard", "14, 20, 28 cells", moment[2], m.value, 0.05);
-    report.state(std::string(c.name) + ": order of F_z, of M_y", "14, 20, 28 cells", f.order, m.order);
+    report.near(std::string(c.name) + ": F_z of standard", "14, 20, 28 cells", force[2], f.value,
+                0.03);
+    report.near(std::string(c.name) + ": M_y of standard", "14, 20, 28 cells", moment[2], m.value,
+                0.05);
+    report.state(std::string(c.name) + ": order of F_z, of M_y", "14, 20, 28 cells", f.order,
+                 m.order);
     Curve curve{"rim", "spacing [chords]", "rms F_z / extrapolated", c.name, {}, {}, false};
     for (int i = 0; i < 3; ++i) curve.x.push_back(h[i]), curve.y.push_back(force[i] / f.value);
     report.curve(std::move(curve));
-    Curve moments{"rim_moment", "spacing [chords]", "rms M_y / extrapolated", c.name, {}, {}, false};
+    Curve moments{"rim_moment", "spacing [chords]", "rms M_y / extrapolated", c.name, {}, {},
+                  false};
     for (int i = 0; i < 3; ++i) moments.x.push_back(h[i]), moments.y.push_back(moment[i] / m.value);
     report.curve(std::move(moments));
   }

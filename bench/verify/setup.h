@@ -57,8 +57,8 @@ inline WingMotion flapAndPitch(const Vector3d& phi, const Vector3d& theta,
   WingMotion m;
   m.R_IW = rotationX(phi[0]) * rotationY(theta[0]);
   m.omega_W = Vector3d(phi[1] * c, theta[1], phi[1] * s);
-  m.alpha_W = Vector3d(phi[2] * c - phi[1] * theta[1] * s, theta[2],
-                       phi[2] * s + phi[1] * theta[1] * c);
+  m.alpha_W =
+      Vector3d(phi[2] * c - phi[1] * theta[1] * s, theta[2], phi[2] * s + phi[1] * theta[1] * c);
   m.v_W = m.R_IW.transpose() * velocity;
   m.a_W = m.R_IW.transpose() * acceleration;
   return m;

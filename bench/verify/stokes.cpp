@@ -14,7 +14,8 @@ Grid largePlate(double layer, int half_cells) {
   std::vector<std::uint8_t> wing(kCells * kCells, 0);
   for (int j = 2; j < kCells - 2; ++j)
     for (int i = 2; i < kCells - 2; ++i) wing[j * kCells + i] = 1;
-  const Axis plane = uniformAxis(-kSize, kSize, kCells), z = coreAxis(layer, half_cells, 1.5, kSize);
+  const Axis plane = uniformAxis(-kSize, kSize, kCells),
+             z = coreAxis(layer, half_cells, 1.5, kSize);
   return makeGrid(plane, plane, z, z.n() / 2, false, wing);
 }
 
@@ -83,8 +84,13 @@ void convergence(Report& report, const std::string& name, double (*error)(int, i
   for (int n : cells) e.push_back(error(n, 3 * n));
   report.below(name + ": error of wall shear", "128 cells a side, 384 steps", e[2], 0.01);
   report.order(name + ": order", "64, 128 cells", std::log2(e[1] / e[2]), 1.9);
-  report.curve({"stokes", "cells in the layer", "relative error of wall shear", name,
-                {32, 64, 128}, e, true});
+  report.curve({"stokes",
+                "cells in the layer",
+                "relative error of wall shear",
+                name,
+                {32, 64, 128},
+                e,
+                true});
 }
 
 }  // namespace

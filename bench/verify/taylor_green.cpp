@@ -79,14 +79,20 @@ void taylorGreen(Report& report) {
     }
     report.order(grid + ": order, space and time", "24, 48 cells",
                  std::log2(error[moving][1] / error[moving][2]), 1.9);
-    report.curve({"taylor_green", "cells a side", "rms error of velocity", grid, {12, 24, 48},
-                  {error[moving][0], error[moving][1], error[moving][2]}, true});
+    report.curve({"taylor_green",
+                  "cells a side",
+                  "rms error of velocity",
+                  grid,
+                  {12, 24, 48},
+                  {error[moving][0], error[moving][1], error[moving][2]},
+                  true});
 
     const int n = 24;  // time alone: against a run with a quarter of the finest step
     const std::vector<double> best = errors(n, 512, moving);
     const double a = rms(errors(n, 64, moving), &best), b = rms(errors(n, 128, moving), &best);
     report.order(grid + ": order in time", "64, 128 steps, 24^3 cells", std::log2(a / b), 1.9);
-    report.curve({"taylor_green_time", "steps", "rms of time error", grid, {64, 128}, {a, b}, true});
+    report.curve(
+        {"taylor_green_time", "steps", "rms of time error", grid, {64, 128}, {a, b}, true});
   }
   report.below("moving / fixed error", "48^3 cells", error[1][2] / error[0][2], 2);
 }

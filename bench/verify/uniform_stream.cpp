@@ -9,14 +9,14 @@ namespace monarch_flight::verify {
 void uniformStream(Report& report) {
   const int n = 24, steps = 200;
   const double dt = 0.01;
-  NavierStokes flow(makeGrid(coreAxis(0.5, n / 4, 1.15, 1.5), coreAxis(0.5, n / 4, 1.1, 1.5),
-                             coreAxis(0.3, n / 4, 1.2, 1.5), coreAxis(0.3, n / 4, 1.2, 1.5).n() / 2,
-                             false,
-                             std::vector<std::uint8_t>(
-                                 static_cast<std::size_t>(coreAxis(0.5, n / 4, 1.15, 1.5).n()) *
-                                     coreAxis(0.5, n / 4, 1.1, 1.5).n(),
-                                 0)),
-                    airOf(1.2, 0.012), 1, kNoCourantLimit);
+  NavierStokes flow(
+      makeGrid(
+          coreAxis(0.5, n / 4, 1.15, 1.5), coreAxis(0.5, n / 4, 1.1, 1.5),
+          coreAxis(0.3, n / 4, 1.2, 1.5), coreAxis(0.3, n / 4, 1.2, 1.5).n() / 2, false,
+          std::vector<std::uint8_t>(static_cast<std::size_t>(coreAxis(0.5, n / 4, 1.15, 1.5).n()) *
+                                        coreAxis(0.5, n / 4, 1.1, 1.5).n(),
+                                    0)),
+      airOf(1.2, 0.012), 1, kNoCourantLimit);
   const Vector3d omega = Vector3d(1, 2, -2).normalized() * (2 * M_PI / (steps * dt));
   const Vector3d V(1, -2, 0.5), stream(0.3, -0.7, 1.1);
   auto motion = [&](int step) {

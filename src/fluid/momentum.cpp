@@ -75,8 +75,8 @@ double Momentum::position(int component, int direction, int index) const {
   return component == direction ? axis.face[index] : axis.centre[index];
 }
 
-void Momentum::coefficients(const Velocity& c, int component, int direction, int j, int k,
-                            Row row, double least_upwind) const {
+void Momentum::coefficients(const Velocity& c, int component, int direction, int j, int k, Row row,
+                            double least_upwind) const {
   const Direction& m = metric_[component][direction];
   const std::ptrdiff_t s = layout_.stride(direction);
   const std::ptrdiff_t o = component == direction ? -s : -layout_.stride(component);

@@ -70,8 +70,8 @@ void subtractGradient(const Grid& grid, const Layout& l, const double* phi, doub
 
 namespace {
 
-/// Calls f(outer point, inner point, indices of the outer point) for the outer faces or ghosts of component c, direction d, on
-/// the planes of this process and on its neighbouring planes.
+/// Calls f(outer point, inner point, indices of the outer point) for the outer faces or ghosts of
+/// component c, direction d, on the planes of this process and on its neighbouring planes.
 template <class F>
 void forOuter(const Layout& l, int c, int d, F f) {
   const int lo[3] = {-1, -1, l.k0 - 1}, hi[3] = {l.nx, l.ny, l.k1};
@@ -103,9 +103,7 @@ void fillOuter(const Grid& grid, const Layout& l, Velocity& v) {
           a[outer] = a[inner];
         });
       } else {
-        forOuter(l, c, d, [a](std::ptrdiff_t outer, std::ptrdiff_t, const int*) {
-          a[outer] = 0;
-        });
+        forOuter(l, c, d, [a](std::ptrdiff_t outer, std::ptrdiff_t, const int*) { a[outer] = 0; });
       }
     }
   }
@@ -117,8 +115,8 @@ Eigen::Vector3d pointOf(const Grid& grid, int component, int i, int j, int k) {
   Eigen::Vector3d r;
   for (int d = 0; d < 3; ++d) {
     const Axis& a = *axes[d];
-    r[d] = d == component ? a.face[std::min(std::max(q[d], 0), a.n())]
-           : q[d] < 0     ? a.face.front()
+    r[d] = d == component  ? a.face[std::min(std::max(q[d], 0), a.n())]
+           : q[d] < 0      ? a.face.front()
            : q[d] >= a.n() ? a.face.back()
                            : a.centre[q[d]];
   }

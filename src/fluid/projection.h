@@ -21,7 +21,8 @@ void fillOuter(const Grid& grid, const Layout& l, Velocity& v);
 /// position in wing axes.
 void fillOuter(const Grid& grid, const Layout& l,
                const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& field, Velocity& v);
-/// Position of the point (i, j, k) of a component; indices -1 and n of a centre mean the outer face.
+/// Position of the point (i, j, k) of a component; indices -1 and n of a centre mean the outer
+/// face.
 Eigen::Vector3d pointOf(const Grid& grid, int component, int i, int j, int k);
 /// The wing's own faces take the wall's normal velocity.
 void fillWing(const Grid& grid, const Layout& l, const WallVelocity& wall, Velocity& v);
