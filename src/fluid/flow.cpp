@@ -79,7 +79,9 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   dt_ = dt;
   steps_ = 0;
   prepared_ = evaluated_ = false;
-  for (int c = 0; c < 3; ++c) std::fill(vn_.c[c].begin(), vn_.c[c].end(), 0.0);
+  for (Velocity* v : {&vn_, &v_star_}) {
+    for (Array& a : v->c) std::fill(a.begin(), a.end(), 0.0);
+  }
   std::fill(p_.begin(), p_.end(), 0.0);
   level_n_.frame = motion.R_IW;
   level_n_.grid = gridVelocity(motion, air_.wind_I);
@@ -135,7 +137,8 @@ void NavierStokes::setKnownFlow(KnownFlow flow) {
 /// Outer faces and ghosts of a field resolved in `frame`, of a grid at `place` at time t.
 void NavierStokes::fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isometry3d& place,
                                 double t, Velocity& v) const {
-  if (!known_ || grid_.open) {
+  if (!known_ && !grid_.open) return;  // air at rest: what the fields were made with
+  if (grid_.open) {
     fillOuter(grid_, layout_, v);
     return;
   }

@@ -122,6 +122,7 @@ void NavierStokes::restore(const std::vector<char>& bytes) {
   for (int i = 0; i < 9; ++i) r(predicted_frame_.data()[i]);
   for (int c = 0; c < 3; ++c) r(vn_.c[c]), r(vm_.c[c]);
   r(p_);
+  for (Array& a : v_star_.c) std::fill(a.begin(), a.end(), 0.0);
   evaluated_ = false;
   step_ = {};
 }
