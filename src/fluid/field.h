@@ -1,4 +1,6 @@
 #pragma once
+#include <sys/mman.h>
+
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -9,7 +11,8 @@
 
 namespace monarch_flight {
 
-/// Allocator for vectors whose first element lies on a 64-byte boundary.
+/// Allocator for vectors whose first element lies on a 64-byte boundary. Large ones are given huge
+/// pages where the system has them: lines along z touch another page with every point.
 template <class T>
 struct Aligned64 {
   using value_type = T;
@@ -17,9 +20,13 @@ struct Aligned64 {
   template <class U>
   Aligned64(const Aligned64<U>&) {}
   T* allocate(std::size_t n) {
-    const std::size_t bytes = (n * sizeof(T) + 63) / 64 * 64;
-    if (void* p = std::aligned_alloc(64, bytes)) return static_cast<T*>(p);
-    throw std::bad_alloc();
+    constexpr std::size_t kHugePage = 2 << 20;
+    const std::size_t alignment = n * sizeof(T) < kHugePage ? 64 : kHugePage;
+    const std::size_t bytes = (n * sizeof(T) + alignment - 1) / alignment * alignment;
+    void* p = std::aligned_alloc(alignment, bytes);
+    if (p == nullptr) throw std::bad_alloc();
+    if (alignment == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);  // only advice
+    return static_cast<T*>(p);
   }
   void deallocate(T* p, std::size_t) { std::free(p); }
   bool operator==(const Aligned64&) const { return true; }

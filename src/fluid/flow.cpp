@@ -71,7 +71,9 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   dt_ = dt;
   steps_ = 0;
   prepared_ = evaluated_ = false;
-  for (int c = 0; c < 3; ++c) std::fill(vn_.c[c].begin(), vn_.c[c].end(), 0.0);
+  for (Velocity* v : {&vn_, &v_star_}) {
+    for (Array& a : v->c) std::fill(a.begin(), a.end(), 0.0);
+  }
   std::fill(p_.begin(), p_.end(), 0.0);
   level_n_.frame = motion.R_IW;
   level_n_.grid = gridVelocity(motion, air_.wind_I);
@@ -111,13 +113,19 @@ void NavierStokes::setUniformStream(const Eigen::Vector3d& u_I) {
   }
 }
 
+/// Air at rest on a closed boundary is what the fields were made with: nothing writes there.
+void NavierStokes::fillOuterFaces(const Eigen::Matrix3d& frame, Velocity& v) const {
+  if (!grid_.open && stream_I_.isZero(0)) return;
+  fillOuter(grid_, layout_, frame.transpose() * stream_I_, v);
+}
+
 void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame) {
   const Eigen::Matrix3d Q = frame.transpose() * level.frame;
   rotateField(layout_, Q, v, v_star_);
   std::swap(v, v_star_);
   level.frame = frame;
   level.wall = rotated(level.wall, Q);
-  fillOuter(grid_, layout_, frame.transpose() * stream_I_, v);
+  fillOuterFaces(frame, v);
   fillWing(grid_, layout_, level.wall, v);
   fillHalo(layout_, slab_, v);
 }
@@ -199,7 +207,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   next_.wall = wallVelocity(next_.grid);
   momentum_.finish(vn_, convecting_, combined(1, next_.wall, -1, level_n_.wall, 0, next_.wall),
                    v_star_);
-  fillOuter(grid_, layout_, predicted_frame_.transpose() * stream_I_, v_star_);
+  fillOuterFaces(predicted_frame_, v_star_);
   fillWing(grid_, layout_, next_.wall, v_star_);
 
   fillHalo(layout_, slab_, v_star_.c[2]);

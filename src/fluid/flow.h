@@ -46,6 +46,7 @@ class NavierStokes : public FluidModel {
 
  private:
   void prepareStep();
+  void fillOuterFaces(const Eigen::Matrix3d& frame, Velocity& v) const;
   void turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame);
   void convectingField(const GridVelocity& grid_velocity);
   double courant() const;

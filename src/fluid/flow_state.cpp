@@ -124,6 +124,7 @@ void NavierStokes::restore(const std::vector<char>& bytes) {
   for (int i = 0; i < 3; ++i) r(stream_I_[i]);
   for (int c = 0; c < 3; ++c) r(vn_.c[c]), r(vm_.c[c]);
   r(p_);
+  for (Array& a : v_star_.c) std::fill(a.begin(), a.end(), 0.0);
   evaluated_ = false;
   step_ = {};
 }

@@ -1,5 +1,7 @@
 #include "fluid/frame.h"
 
+#include <algorithm>
+
 namespace monarch_flight {
 
 GridVelocity gridVelocity(const WingMotion& motion, const Eigen::Vector3d& wind_I) {
@@ -41,15 +43,15 @@ void rotateField(const Layout& l, const Eigen::Matrix3d& Q, const Velocity& in, 
     const int d = (c + 1) % 3, e = (c + 2) % 3;
     const double qc = Q(c, c), qd = 0.25 * Q(c, d), qe = 0.25 * Q(c, e);
     const std::ptrdiff_t sc = l.stride(c), sd = l.stride(d), se = l.stride(e);
-    const int last_i = l.nx - (c != 0), last_j = l.ny - (c != 1);
-    for (int k = l.k0; k < l.k1; ++k) {
-      for (int j = 0; j <= last_j; ++j) {
+    const int first_i = c == 0, first_j = c == 1, first_k = c == 2;
+    for (int k = std::max(first_k, l.k0); k < l.k1; ++k) {
+      for (int j = first_j; j < l.ny; ++j) {
         const std::ptrdiff_t row = l.at(0, j, k);
-        const double* a = in.c[c].data() + row;
-        const double* b = in.c[d].data() + row;
-        const double* g = in.c[e].data() + row;
-        double* o = out.c[c].data() + row;
-        for (int i = 0; i <= last_i; ++i) {
+        const double* __restrict a = in.c[c].data() + row;
+        const double* __restrict b = in.c[d].data() + row;
+        const double* __restrict g = in.c[e].data() + row;
+        double* __restrict o = out.c[c].data() + row;
+        for (int i = first_i; i < l.nx; ++i) {
           const double mean_d = b[i] + b[i - sc] + b[i + sd] + b[i + sd - sc];
           const double mean_e = g[i] + g[i - sc] + g[i + se] + g[i + se - sc];
           o[i] = qc * a[i] + qd * mean_d + qe * mean_e;

@@ -34,7 +34,7 @@ WallVelocity combined(double a, const WallVelocity& x, double b, const WallVeloc
 
 /// out = Q in at every interior face: velocity resolved in axes turned by Q. Each component keeps
 /// its own faces; the other two are averaged to them, so a uniform field is turned exactly. Ghosts
-/// and outer faces are turned too.
+/// and outer faces of `out` stay as they are.
 void rotateField(const Layout& l, const Eigen::Matrix3d& Q, const Velocity& in, Velocity& out);
 
 }  // namespace monarch_flight

@@ -1,34 +1,56 @@
+// Setting up, coefficients and right side; the factors are solved in momentum_plane.cpp (x, y) and
+// momentum_normal.cpp (z).
 #include "fluid/momentum.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+
+#include "fluid/interleave.h"
+#include "fluid/momentum_stencil.h"
 
 namespace monarch_flight {
 namespace {
 
-constexpr double kUpwindMin = 0.05;        ///< share of first-order upwind at small Courant numbers
-constexpr double kUpwindMax = 0.30;        ///< and at Courant numbers above 2
 constexpr double kDissipation = 1.0 / 32;  ///< fourth difference, at Courant numbers of 1 and above
-constexpr int kLines = 8;                  ///< lines solved together in the x sweep (one vector)
 
-double upwind(double courant) {
-  return std::min(kUpwindMax, std::max(kUpwindMin, kUpwindMin + 0.25 * (courant - 1.0)));
+/// Off-diagonals of the three factors along one row.
+struct Offs {
+  const double *lx, *ux, *ly, *uy, *lz, *uz;
+};
+
+/// d -= sum of off * (neighbour - v), for i0 <= i <= i1.
+void subtractFluxes(const Offs& o, const double* __restrict v, std::ptrdiff_t sy, std::ptrdiff_t sz,
+                    int i0, int i1, double* __restrict d) {
+  const double* __restrict lx = o.lx;
+  const double* __restrict ux = o.ux;
+  const double* __restrict ly = o.ly;
+  const double* __restrict uy = o.uy;
+  const double* __restrict lz = o.lz;
+  const double* __restrict uz = o.uz;
+  const double* __restrict south = v - sy;
+  const double* __restrict north = v + sy;
+  const double* __restrict down = v - sz;
+  const double* __restrict up = v + sz;
+  for (int i = i0; i <= i1; ++i) {
+    d[i] -= lx[i] * (v[i - 1] - v[i]) + ux[i] * (v[i + 1] - v[i]) + ly[i] * (south[i] - v[i]) +
+            uy[i] * (north[i] - v[i]) + lz[i] * (down[i] - v[i]) + uz[i] * (up[i] - v[i]);
+  }
 }
 
-/// a A_d: `minus` and `plus` are the convecting velocities on the lower and upper side of the
-/// point.
-struct Stencil {
-  double a, dt, nu;
-  double lower(double minus, double inv_dist, double inv_width) const {
-    const double m = std::abs(minus);
-    return -a * (0.5 * (minus + upwind(m * dt * inv_dist) * m) + nu * inv_dist) * inv_width;
+/// d -= min(scale |f(i) + f(i + o)|, share) * fourth difference of v with stride s, scale(i) = x[i]
+/// * scale_row.
+void subtractFourth(const double* __restrict v, std::ptrdiff_t s, const double* __restrict f,
+                    const double* __restrict f_before, const double* __restrict x, double scale_row,
+                    double share, int i0, int i1, double* __restrict d) {
+  const double* __restrict b1 = v - s;
+  const double* __restrict b2 = v - 2 * s;
+  const double* __restrict a1 = v + s;
+  const double* __restrict a2 = v + 2 * s;
+  for (int i = i0; i <= i1; ++i) {
+    const double factor = scale_row * x[i] * std::abs(f[i] + f_before[i]);
+    d[i] -= std::min(share, factor) * (a2[i] + b2[i] - 4 * (a1[i] + b1[i]) + 6 * v[i]);
   }
-  double upper(double plus, double inv_dist, double inv_width) const {
-    const double m = std::abs(plus);
-    return a * (0.5 * (plus - upwind(m * dt * inv_dist) * m) - nu * inv_dist) * inv_width;
-  }
-};
+}
 
 }  // namespace
 
@@ -61,10 +83,22 @@ Momentum::Momentum(const Grid& grid, const Layout& layout, const Slab& slab)
     }
   }
   wing_plane_.assign(layout.sz, 0.0);
-  const std::size_t line = std::max({layout.nx, layout.ny, layout.nz}) + 8;
-  lower_.assign(std::max<std::size_t>(layout.sy, kLines * line), 0.0);
-  upper_ = wall_diagonal_ = wall_side_ = zero_ = lower_;
-  gamma_.assign(line * std::max<std::size_t>(layout.sy, kLines), 0.0);
+  const std::size_t lines = std::max({layout.nx, layout.ny, layout.nz}) + 8;
+  for (Array* row : {&lower_, &upper_, &wall_diagonal_, &wall_side_, &zero_, &x_above_, &x_below_})
+    row->assign(layout.sy, 0.0);
+  for (Array* rows : {&y_above_, &y_below_}) rows->assign(2 * layout.sy, 0.0);
+  for (Array* block : {&x_lower_, &x_upper_, &y_lower_, &y_upper_, &lane_lower_, &lane_upper_,
+                       &lane_gamma_, &lane_side_})
+    block->assign(kLines * layout.sy, 0.0);
+  gamma_.assign(kRowsZ * lines * layout.sy, 0.0);
+  one_.assign(layout.sy, 1.0);
+  z_behind_.assign(layout.sz, 0.0);
+  next_.assign(layout.sy, 0.0);
+  for (int c = 0; c < 3; ++c) {
+    fourth_x_[c].assign(layout.sy, 0.0);
+    for (int i = 2 + (c == 0); i <= layout.nx - 3; ++i)
+      fourth_x_[c][i] = metric_[c][0].inverse_width[i];
+  }
   if (slab.ranks() > 1) gamma_field_.assign(layout.size(), 0.0);
 }
 
@@ -73,32 +107,76 @@ double Momentum::position(int component, int direction, int index) const {
   return component == direction ? axis.face[index] : axis.centre[index];
 }
 
-void Momentum::coefficients(const Velocity& c, int component, int direction, int j, int k,
-                            Row row) const {
-  const Direction& m = metric_[component][direction];
-  const std::ptrdiff_t s = layout_.stride(direction);
-  const std::ptrdiff_t o = component == direction ? -s : -layout_.stride(component);
+/// Stencils of the lower faces, along y or z, of the points of row (j, k).
+void Momentum::rowFaces(const Velocity& c, int component, int direction, int j, int k,
+                        double* __restrict above, double* __restrict below) const {
+  const std::ptrdiff_t o = -layout_.stride(component == direction ? direction : component);
   const double* __restrict f = c.c[direction].data() + layout_.at(0, j, k);
+  const double inv_dist = metric_[component][direction].inverse_distance[direction == 1 ? j : k];
+  const FaceStencil stencil(step_);
+  for (int i = first(component, 0), end = last(component, 0); i <= end; ++i)
+    stencil(0.5 * (f[i] + f[i + o]), inv_dist, above[i], below[i]);
+}
+
+void Momentum::coefficientsX(const Velocity& c, int component, int j, int k, Row row) {
+  const std::ptrdiff_t o = -layout_.stride(component);
+  const double* __restrict f = c.c[0].data() + layout_.at(0, j, k);
+  const double* __restrict inv_dist = metric_[component][0].inverse_distance.data();
+  const double* __restrict iw = metric_[component][0].inverse_width.data();
+  double* __restrict above = x_above_.data();
+  double* __restrict below = x_below_.data();
   double* __restrict lower = row.lower;
   double* __restrict upper = row.upper;
-  const Stencil stencil{step_.a, step_.dt, step_.nu};
   const int i0 = first(component, 0), i1 = last(component, 0);
-  if (direction == 0) {
-    const double* __restrict iw = m.inverse_width.data();
-    const double* __restrict id = m.inverse_distance.data();
-    for (int i = i0; i <= i1; ++i) {
-      lower[i] = stencil.lower(0.5 * (f[i] + f[i + o]), id[i], iw[i]);
-      upper[i] = stencil.upper(0.5 * (f[i + s] + f[i + s + o]), id[i + 1], iw[i]);
-    }
-    return;
-  }
-  const int n = direction == 1 ? j : k;
-  const double iw = m.inverse_width[n], id0 = m.inverse_distance[n],
-               id1 = m.inverse_distance[n + 1];
+  const FaceStencil stencil(step_);
+  for (int i = i0; i <= i1 + 1; ++i)
+    stencil(0.5 * (f[i] + f[i + o]), inv_dist[i], above[i], below[i]);
   for (int i = i0; i <= i1; ++i) {
-    lower[i] = stencil.lower(0.5 * (f[i] + f[i + o]), id0, iw);
-    upper[i] = stencil.upper(0.5 * (f[i + s] + f[i + s + o]), id1, iw);
+    lower[i] = -iw[i] * above[i];
+    upper[i] = iw[i] * below[i + 1];
   }
+}
+
+/// Rows of a plane come in ascending order: the upper faces of one are the lower faces of the next.
+void Momentum::coefficientsY(const Velocity& c, int component, int j, int k, Row row) {
+  const std::ptrdiff_t here = (j % 2) * layout_.sy, next = layout_.sy - here;
+  if (j == first(component, 1))
+    rowFaces(c, component, 1, j, k, y_above_.data() + here, y_below_.data() + here);
+  rowFaces(c, component, 1, j + 1, k, y_above_.data() + next, y_below_.data() + next);
+  const double* __restrict above = y_above_.data() + here;
+  const double* __restrict below = y_below_.data() + next;
+  double* __restrict lower = row.lower;
+  double* __restrict upper = row.upper;
+  const double iw = metric_[component][1].inverse_width[j];
+  for (int i = first(component, 0), end = last(component, 0); i <= end; ++i) {
+    lower[i] = -iw * above[i];
+    upper[i] = iw * below[i];
+  }
+}
+
+/// The stencil, `above` or `below`, of the face behind row (j, k) on the way upwards or downwards.
+void Momentum::faceBehindZ(const Velocity& c, int component, int j, int k, int towards,
+                           double* behind) const {
+  double* unused = next_.data();
+  if (towards > 0) rowFaces(c, component, 2, j, k, behind, unused);
+  if (towards < 0) rowFaces(c, component, 2, j, k + 1, unused, behind);
+}
+
+/// Rows of a line of z come one after the other: `behind` holds the stencil of the face behind the
+/// row (j, k), and then that of the face ahead, for the next row.
+void Momentum::coefficientsZ(const Velocity& c, int component, int j, int k, int towards,
+                             double* __restrict behind, Row row) const {
+  const Direction& m = metric_[component][2];
+  const int ahead = towards > 0 ? k + 1 : k;
+  double* __restrict off_behind = towards > 0 ? row.lower : row.upper;
+  double* __restrict off_ahead = towards > 0 ? row.upper : row.lower;
+  double* __restrict next = next_.data();
+  const double iw = towards * m.inverse_width[k];
+  const int i0 = first(component, 0), i1 = last(component, 0);
+  for (int i = i0; i <= i1; ++i) off_behind[i] = -iw * behind[i];
+  towards > 0 ? rowFaces(c, component, 2, j, ahead, behind, next)
+              : rowFaces(c, component, 2, j, ahead, next, behind);
+  for (int i = i0; i <= i1; ++i) off_ahead[i] = iw * next[i];
 }
 
 void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Velocity& vm,
@@ -106,349 +184,90 @@ void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Veloc
   step_ = step;
   for (int component = 0; component < 3; ++component) {
     for (int k = first(component, 2); k <= last(component, 2); ++k) {
-      for (int j = first(component, 1); j <= last(component, 1); ++j) {
-        rightSide(vn, vm, c, p, wall_n, component, j, k);
-      }
-      if (component == 2 && k == grid_.k_wing) {
-        const double* plane = delta_.c[2].data() + layout_.plane(k);
-        std::copy(plane, plane + layout_.sz, wing_plane_.begin());
-        continue;  // swept in finish(): it holds the wing's faces
-      }
-      sweepX(c, component, k, nullptr);
-      sweepY(c, component, k, nullptr);
+      const bool swept = !(component == 2 && k == grid_.k_wing);
+      solvePlane(component, k, swept, [&](int j, Row x, Row y) {
+        coefficientsX(c, component, j, k, x);
+        coefficientsY(c, component, j, k, y);
+        rightSide(vn, vm, c, p, wall_n, component, j, k, x, y);
+      });
+      if (swept) continue;
+      // Swept in finish(): it holds the wing's faces.
+      const double* plane = delta_.c[2].data() + layout_.plane(k);
+      std::copy(plane, plane + layout_.sz, wing_plane_.begin());
     }
   }
 }
 
 void Momentum::finish(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change,
                       Velocity& v_star) {
-  if (slab_.owns(grid_.k_wing)) {
-    std::copy(wing_plane_.begin(), wing_plane_.end(),
-              delta_.c[2].data() + layout_.plane(grid_.k_wing));
-    sweepX(c, 2, grid_.k_wing, &wall_change);
-    sweepY(c, 2, grid_.k_wing, &wall_change);
+  const int kw = grid_.k_wing;
+  if (slab_.owns(kw)) {
+    double* plane = delta_.c[2].data() + layout_.plane(kw);
+    std::copy(wing_plane_.begin(), wing_plane_.end(), plane);
+    solvePlane(2, kw, true, [&](int j, Row x, Row y) {
+      coefficientsX(c, 2, j, kw, x);
+      coefficientsY(c, 2, j, kw, y);
+      double* d = delta_.c[2].data() + layout_.at(0, j, kw);
+      fixWingFaces(wall_change, j, x, d);
+      fixWingFaces(wall_change, j, y, d);
+    });
   }
-  for (int component = 0; component < 3; ++component) {
-    sweepZ(c, wall_change, component, v_star);
-    for (int k = first(component, 2); k <= last(component, 2); ++k) {
-      for (int j = first(component, 1); j <= last(component, 1); ++j) {
-        const double* __restrict v = vn.c[component].data() + layout_.at(0, j, k);
-        double* __restrict d = v_star.c[component].data() + layout_.at(0, j, k);
-        for (int i = first(component, 0); i <= last(component, 0); ++i) d[i] += v[i];
-      }
-    }
+  for (int component = 0; component < 3; ++component) sweepZ(c, wall_change, component, vn, v_star);
+}
+
+/// Where the wing lies between two points each of them sees the wall at half a cell instead.
+void Momentum::cutAtWing(int component, int j, int k, double* __restrict off,
+                         double* __restrict diagonal) const {
+  const double width = grid_.z.width[k], wall = 2 * step_.a * step_.nu / (width * width);
+  const Direction& m = metric_[component][2];
+  const double link = step_.a * step_.nu * m.inverse_distance[grid_.k_wing] * m.inverse_width[k];
+  for (int i = first(component, 0), end = last(component, 0); i <= end; ++i) {
+    const double b = blocked(component, i, j);
+    off[i] += b * link;
+    diagonal[i] = b * wall;
   }
 }
 
+/// (v^n - v^(n-1)) / 3 - a (A v^n + grad p / rho) less the fourth differences, of one row.
 void Momentum::rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
-                         const WallVelocity& wall_n, int component, int j, int k) {
-  const std::ptrdiff_t row = layout_.at(0, j, k);
+                         const WallVelocity& wall_n, int component, int j, int k, Row x, Row y) {
+  const std::ptrdiff_t row = layout_.at(0, j, k), sc = layout_.stride(component);
+  const int i0 = first(component, 0), i1 = last(component, 0), kw = grid_.k_wing;
   const double* __restrict v = vn.c[component].data() + row;
   const double* __restrict w = vm.c[component].data() + row;
-  double* __restrict d = delta_.c[component].data() + row;
-  const int i0 = first(component, 0), i1 = last(component, 0);
-
-  const double third = step_.second_order ? 1.0 / 3 : 0.0;
-  const std::ptrdiff_t sc = layout_.stride(component);
   const double* __restrict q = p.data() + row;
-  const double scale = step_.a / step_.rho;
-  if (component == 0) {
-    const double* iw = metric_[0][0].inverse_width.data();
-    for (int i = i0; i <= i1; ++i) d[i] = third * (v[i] - w[i]) - scale * iw[i] * (q[i] - q[i - 1]);
-  } else {
-    const double iw = scale * metric_[component][component].inverse_width[component == 1 ? j : k];
-    for (int i = i0; i <= i1; ++i) d[i] = third * (v[i] - w[i]) - iw * (q[i] - q[i - sc]);
-  }
-  for (int direction = 0; direction < 3; ++direction) {
-    double* __restrict lo = lower_.data();
-    double* __restrict up = upper_.data();
-    coefficients(c, component, direction, j, k, {lo, up});
-    const std::ptrdiff_t s = layout_.stride(direction);
-    if (direction == 2 && component != 2 && (k == grid_.k_wing || k == grid_.k_wing - 1)) {
-      // Where the wing lies between two points each of them sees the wall at half a cell instead.
-      const bool above = k == grid_.k_wing;
-      const Direction& m = metric_[component][2];
-      const double wall = 2 * step_.a * step_.nu / (grid_.z.width[k] * grid_.z.width[k]);
-      const double link =
-          step_.a * step_.nu * m.inverse_distance[grid_.k_wing] * m.inverse_width[k];
-      double* __restrict off = above ? lo : up;
-      const double y = position(component, 1, j);
-      for (int i = i0; i <= i1; ++i) {
-        const double b = blocked(component, i, j);
-        off[i] += b * link;
-        d[i] += b * wall * (wall_n.at(component, position(component, 0, i), y) - v[i]);
-      }
-    }
-    for (int i = i0; i <= i1; ++i) d[i] -= lo[i] * (v[i - s] - v[i]) + up[i] * (v[i + s] - v[i]);
-  }
-  dissipate(vn, c, component, 0, j, k);
-  dissipate(vn, c, component, 1, j, k);
-}
-
-void Momentum::dissipate(const Velocity& vn, const Velocity& c, int component, int direction, int j,
-                         int k) {
-  const int n = direction == 0 ? layout_.nx : layout_.ny;
-  if (direction == 1 && (j < 2 + first(component, 1) || j > n - 3)) return;
-  const std::ptrdiff_t row = layout_.at(0, j, k), s = layout_.stride(direction);
-  const std::ptrdiff_t o = component == direction ? 0 : -layout_.stride(component);
-  const double* __restrict v = vn.c[component].data() + row;
-  const double* __restrict f = c.c[direction].data() + row;
+  const double* __restrict q_before = q - sc;
   double* __restrict d = delta_.c[component].data() + row;
-  const double* iw = metric_[component][direction].inverse_width.data();
-  const int i0 = direction == 0 ? 2 + first(component, 0) : first(component, 0);
-  const int i1 = direction == 0 ? n - 3 : last(component, 0);
-  const double share = step_.a / step_.dt * kDissipation;
-  for (int i = i0; i <= i1; ++i) {
-    const double courant = 0.5 * std::abs(f[i] + f[i + o]) * step_.dt * iw[direction == 0 ? i : j];
-    d[i] -= share * std::min(1.0, courant) *
-            (v[i + 2 * s] + v[i - 2 * s] - 4 * (v[i + s] + v[i - s]) + 6 * v[i]);
-  }
-}
-
-void Momentum::fixWingFaces(const WallVelocity& wall_change, int j, double* lower, double* upper,
-                            double* d) const {
-  for (int i = 0; i < layout_.nx; ++i) {
-    if (!grid_.isWing(i, j)) continue;
-    lower[i] = upper[i] = 0;
-    d[i] = wall_change.at(2, grid_.x.centre[i], grid_.y.centre[j]);
-  }
-}
-
-void Momentum::sweepX(const Velocity& c, int component, int k, const WallVelocity* wall_change) {
-  const int i0 = first(component, 0), i1 = last(component, 0);
-  const int j0 = first(component, 1), j1 = last(component, 1);
-  const std::ptrdiff_t line = layout_.nx + 8;
-  double* __restrict g = gamma_.data();
-  for (int jb = j0; jb <= j1; jb += kLines) {
-    const int lines = std::min(kLines, j1 - jb + 1);
-    double* __restrict d = delta_.c[component].data() + layout_.at(0, jb, k);
-    for (int l = 0; l < lines; ++l) {
-      Row row{lower_.data() + l * line, upper_.data() + l * line};
-      coefficients(c, component, 0, jb + l, k, row);
-      if (wall_change) fixWingFaces(*wall_change, jb + l, row.lower, row.upper, d + l * layout_.sy);
-    }
-    const double* __restrict lo = lower_.data();
-    const double* __restrict up = upper_.data();
-    for (int l = 0; l < lines; ++l) {
-      const double inv = 1 / (1 - lo[l * line + i0] - up[l * line + i0]);
-      g[i0 * kLines + l] = up[l * line + i0] * inv;
-      d[l * layout_.sy + i0] *= inv;
-    }
-    for (int i = i0 + 1; i <= i1; ++i) {
-      for (int l = 0; l < lines; ++l) {
-        const double a = lo[l * line + i], b = up[l * line + i];
-        const double inv = 1 / (1 - a - b - a * g[(i - 1) * kLines + l]);
-        g[i * kLines + l] = b * inv;
-        d[l * layout_.sy + i] = (d[l * layout_.sy + i] - a * d[l * layout_.sy + i - 1]) * inv;
-      }
-    }
-    for (int i = i1 - 1; i >= i0; --i) {
-      for (int l = 0; l < lines; ++l)
-        d[l * layout_.sy + i] -= g[i * kLines + l] * d[l * layout_.sy + i + 1];
-    }
-  }
-}
-
-void Momentum::sweepY(const Velocity& c, int component, int k, const WallVelocity* wall_change) {
-  const int i0 = first(component, 0), i1 = last(component, 0);
-  const int j0 = first(component, 1), j1 = last(component, 1);
-  double* __restrict lo = lower_.data();
-  double* __restrict up = upper_.data();
-  for (int j = j0; j <= j1; ++j) {
-    double* __restrict d = delta_.c[component].data() + layout_.at(0, j, k);
-    coefficients(c, component, 1, j, k, {lo, up});
-    if (wall_change) fixWingFaces(*wall_change, j, lo, up, d);
-    double* __restrict g = gamma_.data() + j * layout_.sy;
-    const double* __restrict gp = gamma_.data() + (j - 1) * layout_.sy;
-    const double* __restrict dp = d - layout_.sy;
-    if (j == j0) {
-      for (int i = i0; i <= i1; ++i) {
-        const double inv = 1 / (1 - lo[i] - up[i]);
-        g[i] = up[i] * inv;
-        d[i] *= inv;
-      }
-      continue;
-    }
-    for (int i = i0; i <= i1; ++i) {
-      const double inv = 1 / (1 - lo[i] - up[i] - lo[i] * gp[i]);
-      g[i] = up[i] * inv;
-      d[i] = (d[i] - lo[i] * dp[i]) * inv;
-    }
-  }
-  for (int j = j1 - 1; j >= j0; --j) {
-    double* __restrict d = delta_.c[component].data() + layout_.at(0, j, k);
-    const double* __restrict g = gamma_.data() + j * layout_.sy;
-    const double* __restrict dn = d + layout_.sy;
-    for (int i = i0; i <= i1; ++i) d[i] -= g[i] * dn[i];
-  }
-}
-
-struct Momentum::Lines {
-  int component;
-  const double* side;  // right sides (layout of the fields)
-  double* x;           // solution in place of the reduced right sides (layout of the fields)
-  double* gamma;       // off-diagonal left after elimination, of the point (0, j, 0)
-  std::ptrdiff_t gamma_plane;  // stride of k in gamma
-  std::ptrdiff_t gamma_row;    // stride of j in gamma
-  double* gammaAt(int j, int k) const { return gamma + j * gamma_row + k * gamma_plane; }
-};
-
-void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
-                            int j, int k, int towards) {
-  const int component = lines.component, i0 = first(component, 0), i1 = last(component, 0);
-  const int kw = grid_.k_wing;
-  double* lower = lower_.data();
-  double* upper = upper_.data();
-  coefficients(c, component, 2, j, k, {lower, upper});
-  const bool is_end = towards > 0 ? k == (component == 2) : k == layout_.nz - 1;
-  const std::ptrdiff_t row = layout_.at(0, j, k);
-  const double* __restrict near = towards > 0 ? lower : upper;
-  const double* __restrict far = towards > 0 ? upper : lower;
-  const double* __restrict r = lines.side + row;
-  double* __restrict d = lines.x + row;
-  double* __restrict g = lines.gammaAt(j, k);
-  const double* __restrict dp = is_end ? zero_.data() : lines.x + row - towards * layout_.sz;
-  const double* __restrict gp = is_end ? zero_.data() : lines.gammaAt(j, k - towards);
-  if (component != 2 &&
-      (k == kw || k == kw - 1)) {  // sees the wall at half a cell where it is wing
-    const Direction& m = metric_[component][2];
-    const double wall = 2 * step_.a * step_.nu / (grid_.z.width[k] * grid_.z.width[k]);
-    const double link = step_.a * step_.nu * m.inverse_distance[kw] * m.inverse_width[k];
-    const double y = position(component, 1, j);
-    double* __restrict cut = k == kw ? lower : upper;
-    for (int i = i0; i <= i1; ++i) {
-      const double b = blocked(component, i, j);
-      cut[i] += b * link;
-      wall_diagonal_[i] = b * wall;
-      wall_side_[i] = b * wall * wall_change.at(component, position(component, 0, i), y);
-    }
-    for (int i = i0; i <= i1; ++i) {
-      const double inv = 1 / (1 - near[i] - far[i] + wall_diagonal_[i] - near[i] * gp[i]);
-      g[i] = far[i] * inv;
-      d[i] = (r[i] + wall_side_[i] - near[i] * dp[i]) * inv;
-    }
-    return;
-  }
-  for (int i = i0; i <= i1; ++i) {
-    const double inv = 1 / (1 - near[i] - far[i] - near[i] * gp[i]);
-    g[i] = far[i] * inv;
-    d[i] = (r[i] - near[i] * dp[i]) * inv;
-  }
-  if (component == 2 && k == kw) {
-    for (int i = i0; i <= i1; ++i) {
-      if (!grid_.isWing(i, j)) continue;
-      g[i] = 0;
-      d[i] = wall_change.at(2, grid_.x.centre[i], grid_.y.centre[j]);
-    }
-  }
-}
-
-/// Half 0: the planes below the wing's, upwards; half 1: those above, downwards.
-void Momentum::eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
-                         int j, int half) {
-  const int k0 = first(lines.component, 2), k1 = last(lines.component, 2), kw = grid_.k_wing;
-  if (half == 0) {
-    for (int k = k0; k <= std::min(k1, kw - 1); ++k) eliminateRow(c, wall_change, lines, j, k, +1);
+  const double third = step_.second_order ? 1.0 / 3 : 0.0, scale = step_.a / step_.rho;
+  const double* __restrict iw = metric_[component][component].inverse_width.data();
+  if (component == 0) {
+    for (int i = i0; i <= i1; ++i)
+      d[i] = third * (v[i] - w[i]) - scale * iw[i] * (q[i] - q_before[i]);
   } else {
-    for (int k = k1; k >= std::max(k0, kw); --k) eliminateRow(c, wall_change, lines, j, k, -1);
+    const double gradient = scale * iw[component == 1 ? j : k];
+    for (int i = i0; i <= i1; ++i) d[i] = third * (v[i] - w[i]) - gradient * (q[i] - q_before[i]);
   }
-}
 
-/// The two points that meet at the wing's plane, of which this process owns one or both.
-void Momentum::join(const Lines& lines, int j) const {
-  const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
-  const double* __restrict ga = lines.gammaAt(j, kw - 1);
-  const double* __restrict gb = lines.gammaAt(j, kw);
-  double* __restrict a = lines.x + layout_.at(0, j, kw - 1);
-  double* __restrict b = lines.x + layout_.at(0, j, kw);
-  for (int i = i0; i <= i1; ++i) {
-    const double inv = 1 / (1 - ga[i] * gb[i]), below = a[i], above = b[i];
-    a[i] = (below - ga[i] * above) * inv;
-    b[i] = (above - gb[i] * below) * inv;
+  double* behind = z_behind_.data() + j * layout_.sy;
+  if (k == first(component, 2)) faceBehindZ(c, component, j, k, +1, behind);
+  coefficientsZ(c, component, j, k, +1, behind, {lower_.data(), upper_.data()});
+  if (component != 2 && (k == kw || k == kw - 1)) {
+    cutAtWing(component, j, k, k == kw ? lower_.data() : upper_.data(), wall_diagonal_.data());
+    const double y_point = position(component, 1, j);
+    for (int i = i0; i <= i1; ++i)
+      d[i] += wall_diagonal_[i] * (wall_n.at(component, position(component, 0, i), y_point) - v[i]);
   }
-}
+  subtractFluxes({x.lower, x.upper, y.lower, y.upper, lower_.data(), upper_.data()}, v, layout_.sy,
+                 layout_.sz, i0, i1, d);
 
-void Momentum::substitute(const Lines& lines, int j, int half) const {
-  const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
-  const int k0 = first(lines.component, 2), k1 = last(lines.component, 2);
-  const int begin = half == 0 ? std::min(k1, kw - 2) : std::max(k0, kw + 1);
-  const int count = half == 0 ? begin - k0 + 1 : k1 - begin + 1, towards = half == 0 ? -1 : +1;
-  for (int n = 0; n < count; ++n) {
-    const int k = begin + n * towards;
-    double* __restrict x = lines.x + layout_.at(0, j, k);
-    const double* __restrict solved = x - towards * layout_.sz;
-    const double* __restrict g = lines.gammaAt(j, k);
-    for (int i = i0; i <= i1; ++i) x[i] -= g[i] * solved[i];
-  }
-}
-
-void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int component,
-                      Velocity& v_star) {
-  const int j0 = first(component, 1), j1 = last(component, 1), kw = grid_.k_wing;
-  Lines lines{
-      component, delta_.c[component].data(), v_star.c[component].data(), gamma_.data(), layout_.sy,
-      0};
-  if (slab_.ranks() == 1) {
-    for (int j = j0; j <= j1; ++j) {
-      eliminate(c, wall_change, lines, j, 0);
-      eliminate(c, wall_change, lines, j, 1);
-      join(lines, j);
-      substitute(lines, j, 0);
-      substitute(lines, j, 1);
-    }
-    return;
-  }
-  // The same with the lines cut by slabs: planes pass from process to process towards the wing and
-  // back.
-  lines.gamma = gamma_field_.data() + layout_.at(0, 0, 0);
-  lines.gamma_plane = layout_.sz;
-  lines.gamma_row = layout_.sy;
-  const int k0 = layout_.k0, k1 = layout_.k1, n = static_cast<int>(layout_.sz);
-  const bool has_below = k0<kw, has_above = k1> kw;
-  auto x = [&](int k) { return lines.x + layout_.plane(k); };
-  auto gamma = [&](int k) { return gamma_field_.data() + layout_.plane(k); };
-  if (has_below) {
-    if (!slab_.atBottom()) {
-      slab_.receiveFromBelow(x(k0 - 1), n);
-      slab_.receiveFromBelow(gamma(k0 - 1), n);
-    }
-    for (int j = j0; j <= j1; ++j) eliminate(c, wall_change, lines, j, 0);
-    if (k1 < kw) {
-      slab_.sendUp(x(k1 - 1), n);
-      slab_.sendUp(gamma(k1 - 1), n);
-    }
-  }
-  if (has_above) {
-    if (!slab_.atTop()) {
-      slab_.receiveFromAbove(x(k1), n);
-      slab_.receiveFromAbove(gamma(k1), n);
-    }
-    for (int j = j0; j <= j1; ++j) eliminate(c, wall_change, lines, j, 1);
-    if (k0 > kw) {
-      slab_.sendDown(x(k0), n);
-      slab_.sendDown(gamma(k0), n);
-    }
-  }
-  if (k1 == kw) {
-    slab_.exchangeAbove(x(kw - 1), x(kw), n);
-    slab_.exchangeAbove(gamma(kw - 1), gamma(kw), n);
-  } else if (k0 == kw) {
-    slab_.exchangeBelow(x(kw), x(kw - 1), n);
-    slab_.exchangeBelow(gamma(kw), gamma(kw - 1), n);
-  }
-  if (k0 <= kw && k1 >= kw) {
-    for (int j = j0; j <= j1; ++j) join(lines, j);
-  }
-  if (has_below) {
-    if (k1 < kw) slab_.receiveFromAbove(x(k1), n);
-    for (int j = j0; j <= j1; ++j) substitute(lines, j, 0);
-    if (!slab_.atBottom()) slab_.sendDown(x(k0), n);
-  }
-  if (has_above) {
-    if (k0 > kw) slab_.receiveFromBelow(x(k0 - 1), n);
-    for (int j = j0; j <= j1; ++j) substitute(lines, j, 1);
-    if (!slab_.atTop()) slab_.sendUp(x(k1 - 1), n);
-  }
+  const double share = step_.a / step_.dt * kDissipation, courant = 0.5 * step_.dt * share;
+  const double* cx = c.c[0].data() + row;
+  const double* cy = c.c[1].data() + row;
+  subtractFourth(v, 1, cx, component == 0 ? cx : cx - sc, fourth_x_[component].data(), courant,
+                 share, i0, i1, d);
+  if (j < 2 + first(component, 1) || j > layout_.ny - 3) return;
+  subtractFourth(v, layout_.sy, cy, component == 1 ? cy : cy - sc, one_.data(),
+                 courant * metric_[component][1].inverse_width[j], share, i0, i1, d);
 }
 
 }  // namespace monarch_flight

@@ -3,6 +3,7 @@
 
 #include "fluid/field.h"
 #include "fluid/frame.h"
+#include "fluid/interleave.h"
 
 namespace monarch_flight {
 
@@ -63,24 +64,57 @@ class Momentum {
   }
   double position(int component, int direction, int index) const;
 
-  void coefficients(const Velocity& c, int component, int direction, int j, int k, Row row) const;
+  void rowFaces(const Velocity& c, int component, int direction, int j, int k, double* above,
+                double* below) const;
+  void coefficientsX(const Velocity& c, int component, int j, int k, Row row);
+  void coefficientsY(const Velocity& c, int component, int j, int k, Row row);
+  void faceBehindZ(const Velocity& c, int component, int j, int k, int towards,
+                   double* behind) const;
+  void coefficientsZ(const Velocity& c, int component, int j, int k, int towards, double* behind,
+                     Row row) const;
   void rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
-                 const WallVelocity& wall_n, int component, int j, int k);
-  void dissipate(const Velocity& vn, const Velocity& c, int component, int direction, int j, int k);
-  void sweepX(const Velocity& c, int component, int k, const WallVelocity* wall_change);
-  void sweepY(const Velocity& c, int component, int k, const WallVelocity* wall_change);
+                 const WallVelocity& wall_n, int component, int j, int k, Row x, Row y);
+  void cutAtWing(int component, int j, int k, double* off, double* diagonal) const;
+  void fixWingFaces(const WallVelocity& wall_change, int j, Row row, double* d) const;
+
+  /// Calls fill(j, x, y) for the rows of plane k of delta, to set their right sides and their
+  /// coefficients along x and y, and (if `swept`) solves both factors, eight rows at a time while
+  /// they are in the cache.
+  template <class Fill>
+  void solvePlane(int component, int k, bool swept, Fill fill) {
+    const int end = last(component, 1) + 1;
+    for (int j = first(component, 1); j < end; j += kLines) {
+      const int lines = std::min(kLines, end - j);
+      for (int l = 0; l < lines; ++l) fill(j + l, xRow(l), yRow(l));
+      if (swept) solveRows(component, j, k, lines);
+    }
+    if (swept) substituteY(component, k);
+  }
+  Row xRow(int l) { return {&x_lower_[l * layout_.sy], &x_upper_[l * layout_.sy]}; }
+  Row yRow(int l) { return {&y_lower_[l * layout_.sy], &y_upper_[l * layout_.sy]}; }
+  void solveRows(int component, int j, int k, int lines);
+  void sweepX(int component, double* rows, int lines);
+  void eliminateY(int component, int j, Row row, double* d);
+  void substituteY(int component, int k);
+
   /// The z factor: eliminated from both ends to the wing's plane, solved there, substituted
-  /// outwards.
-  void sweepZ(const Velocity& c, const WallVelocity& wall_change, int component, Velocity& v_star);
+  /// outwards; v* = v^n + delta.
+  void sweepZ(const Velocity& c, const WallVelocity& wall_change, int component, const Velocity& vn,
+              Velocity& v_star);
   struct Lines;  ///< the factors and right sides of the lines of one component
   void eliminateRow(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j,
                     int k, int towards);
-  void eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines, int j,
-                 int half);
-  void join(const Lines& lines, int j) const;
-  void substitute(const Lines& lines, int j, int half) const;
-  void fixWingFaces(const WallVelocity& wall_change, int j, double* lower, double* upper,
-                    double* d) const;
+  struct RowRange {
+    int first, last;
+  };
+  void eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
+                 RowRange rows, int half);
+  void join(const Lines& lines, RowRange rows) const;
+  void substitute(const Lines& lines, RowRange rows, int half) const;
+  void addLevel(const Lines& lines, const Velocity& vn, RowRange rows) const;
+
+  /// Lines of z that one process solves together: neighbours in memory, few enough for the cache.
+  static constexpr int kRowsZ = 4;
 
   const Grid& grid_;
   const Layout& layout_;
@@ -90,7 +124,15 @@ class Momentum {
   MomentumStep step_{};
   Velocity delta_;    ///< after the x and y factors
   Array wing_plane_;  ///< right side of w in the wing's plane, before any factor
-  Array lower_, upper_, gamma_, wall_diagonal_, wall_side_, zero_;  ///< scratch
+  // Scratch: single rows, two rows of faces, blocks of kLines rows, and such blocks interleaved
+  Array lower_, upper_, wall_diagonal_, wall_side_, zero_, x_above_, x_below_, one_;
+  Array y_above_, y_below_;
+  Array x_lower_, x_upper_, y_lower_, y_upper_;
+  Array lane_lower_, lane_upper_, lane_gamma_, lane_side_;
+  Array gamma_;     ///< factors of a plane
+  Array z_behind_;  ///< stencils of a plane of z-faces
+  mutable Array next_;
+  Array fourth_x_[3];  ///< per component: 1 / width where fourth differences along x reach, else 0
   Array gamma_field_;  ///< factors of all lines; only where several processes share them
 };
 

@@ -57,7 +57,7 @@ void BagOutput::write(const StampedMessage& message) {
         [&](const auto& content) {
           using Message = std::decay_t<decltype(content)>;
           bag_->write(message.topic, message.stamp, content,
-                     message.latched ? latchedHeader<Message>() : nullptr);
+                      message.latched ? latchedHeader<Message>() : nullptr);
         },
         message.message);
   } catch (const rosbag::BagException& e) {

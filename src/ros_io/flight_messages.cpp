@@ -219,9 +219,8 @@ void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& sta
                                  std::vector<StampedMessage>& out) const {
   const Insect& insect = case_.insect;
   if (!step.surface.facets.empty()) {
-    visualization_msgs::MarkerArray picture =
-        pressureMarkers(step.surface, pressure_, insect.bare_wing,
-                        kLift * insect.planform.meanChord(), stamp);
+    visualization_msgs::MarkerArray picture = pressureMarkers(
+        step.surface, pressure_, insect.bare_wing, kLift * insect.planform.meanChord(), stamp);
     const visualization_msgs::MarkerArray legend = pressureLegend(
         pressure_, insect.planform.span(), baseLinkAttitude(step.interface.body), stamp);
     picture.markers.insert(picture.markers.end(), legend.markers.begin(), legend.markers.end());
@@ -229,8 +228,8 @@ void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& sta
   }
   const bool flow = case_.fluid == FluidKind::kNavierStokes;
   if (flow && step.step > 0 && due(step.step, case_.output.vortices_every)) {
-    out.push_back({topics::kVortices, stamp,
-                   vortexCloud(step.vortices, insect, step.angles, stamp)});
+    out.push_back(
+        {topics::kVortices, stamp, vortexCloud(step.vortices, insect, step.angles, stamp)});
   }
 }
 
@@ -242,7 +241,7 @@ diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep
   solvers.name = "coordinator: solvers";
   coupling.hardware_id = solvers.hardware_id = "monarch_flight";
   coupling.level = step.converged ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
-  coupling.message = !step.converged ? "step not converged"
+  coupling.message = !step.converged   ? "step not converged"
                      : step.prescribed ? "prescribed step"
                                        : "converged";
   coupling.values = {entry("step", step.step), entry("t [s]", step.t),
@@ -259,12 +258,10 @@ diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep
   const bool fast = step.fluid.courant > 0.9 * case_.grid.courant_limit;
   solvers.level = fast ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
   solvers.message = fast ? "Courant number close to its limit" : "running";
-  solvers.values = {entry("Courant number", step.fluid.courant),
-                    entry("divergence", step.fluid.divergence),
-                    entry("fluid [s]", step.wall_s[0]),
-                    entry("flight [s]", step.wall_s[1]),
-                    entry("wing [s]", step.wall_s[2]),
-                    entry("exchange [s]", step.exchange_s)};
+  solvers.values = {
+      entry("Courant number", step.fluid.courant), entry("divergence", step.fluid.divergence),
+      entry("fluid [s]", step.wall_s[0]),          entry("flight [s]", step.wall_s[1]),
+      entry("wing [s]", step.wall_s[2]),           entry("exchange [s]", step.exchange_s)};
   diagnostic_msgs::DiagnosticArray out;
   out.header.stamp = stamp;
   out.status = {coupling, solvers};

@@ -20,8 +20,8 @@ FlightRun::FlightRun(const Case& c, const std::string& out, std::vector<MessageO
             << " s; results in " << out << std::endl;
 }
 
-int FlightRun::fly(std::uint64_t run_id, Participant& fluid, Participant& flight,
-                   Participant& wing, const bool& stop) {
+int FlightRun::fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
+                   const bool& stop) {
   std::vector<StepSink*> sinks = {&progress_};
   if (messages_) sinks.push_back(messages_.get());
   sinks.push_back(&files_);  // the last: the summary then knows of the failures of the others

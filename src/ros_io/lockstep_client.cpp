@@ -7,7 +7,8 @@
 namespace monarch_flight {
 namespace {
 
-// Longest uninterrupted wait: an interrupt is noticed within it. Messages and lost connections end it.
+// Longest uninterrupted wait: an interrupt is noticed within it. Messages and lost connections end
+// it.
 const ros::WallDuration kSlice(0.1);
 // ABORT is a courtesy: a node that computes, hangs or is gone is not waited for any longer.
 constexpr double kAbortLimit = 2.0;
@@ -66,7 +67,9 @@ void RosParticipant::requireAlive(const ExchangeKey& key) const {
   if (key.phase != Phase::kAbort && (*run_.stop || !ros::ok())) {
     throw ExchangeError("interrupted" + where);
   }
-  if (!connected()) throw ExchangeError(name() + " is lost (connection closed)" + where);
+  if (!connected()) {
+    throw ExchangeError(name() + " is lost (connection closed) at " + describe(key));
+  }
   if (key.phase == Phase::kAbort) return;
   for (const RosParticipant* other : run_.participants) {
     if (!other->connected()) {
@@ -109,8 +112,8 @@ void RosParticipant::await(const ParticipantRequest& message, const ExchangeKey&
     const ros::WallTime now = ros::WallTime::now();
     if (now >= deadline) {
       throw ExchangeError(name() + " did not answer " + describe(key) + " within " +
-                          inSeconds(limit) + " (watchdog); messages ignored so far: " +
-                          counters_.describe());
+                          inSeconds(limit) +
+                          " (watchdog); messages ignored so far: " + counters_.describe());
     }
     if (!again && now >= halfway) {
       requests_.publish(message);

@@ -57,7 +57,8 @@ void LockstepServer::serve() {
 }
 
 void LockstepServer::letCoordinatorLeave() {
-  // The launcher ends everything with the first node that goes; the coordinator still closes its files.
+  // The launcher ends everything with the first node that goes; the coordinator still closes its
+  // files.
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(limits_.exchange_s);
   while (coordinatorListens() && !stop_ && ros::ok() && ros::WallTime::now() < deadline) {
     queue_.callAvailable(kSlice);

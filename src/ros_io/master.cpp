@@ -39,8 +39,9 @@ void requireFreeMaster() {
   XmlRpc::XmlRpcValue uri;
   const std::string name = ros::this_node::getName();
   if (ask("lookupNode", name, uri) && answers(uri)) {
-    throw InputError("a run is already going on at the master " + ros::master::getURI() + " (node " +
-                     name + " lives): wait for its end, or use another port (roslaunch -p)");
+    throw InputError("a run is already going on at the master " + ros::master::getURI() +
+                     " (node " + name +
+                     " lives): wait for its end, or use another port (roslaunch -p)");
   }
 }
 

@@ -38,7 +38,8 @@ Mesh wingMesh(const Planform& planform, bool left, int stations) {
   };
   Mesh mesh;
   for (int i = 0; i < stations; ++i) {
-    const Point a = edge(i, false), b = edge(i, true), c = edge(i + 1, true), d = edge(i + 1, false);
+    const Point a = edge(i, false), b = edge(i, true), c = edge(i + 1, true),
+                d = edge(i + 1, false);
     addQuad(mesh, a, b, c, d);
     addQuad(mesh, d, c, b, a);
   }

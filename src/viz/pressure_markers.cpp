@@ -40,9 +40,9 @@ void addFacet(visualization_msgs::Marker& marker, const SurfacePressure::Facet& 
 
 visualization_msgs::Marker wing(const SurfacePressure& surface, const PressureReference& reference,
                                 bool left, double lift, const ros::Time& stamp) {
-  visualization_msgs::Marker out = blank(left ? frames::kLeftWing : frames::kRightWing, "pressure",
-                                         left ? 1 : 0, visualization_msgs::Marker::TRIANGLE_LIST,
-                                         stamp);
+  visualization_msgs::Marker out =
+      blank(left ? frames::kLeftWing : frames::kRightWing, "pressure", left ? 1 : 0,
+            visualization_msgs::Marker::TRIANGLE_LIST, stamp);
   out.points.reserve(12 * surface.facets.size());
   out.colors.reserve(4 * surface.facets.size());
   const double scale = 1.0 / (reference.dynamic * kPressureRange);
@@ -54,12 +54,13 @@ visualization_msgs::Marker wing(const SurfacePressure& surface, const PressureRe
   return out;
 }
 
-// Upright prism of square section in world axes, drawn in base_link; triangles keep their plain colours.
+// Upright prism of square section in world axes, drawn in base_link; triangles keep their plain
+// colours.
 visualization_msgs::Marker colourBar(const Eigen::Vector3d& foot, double height, double width,
                                      const Eigen::Matrix3d& R_WB, const ros::Time& stamp) {
   constexpr int kBars = 40;
-  visualization_msgs::Marker bar = blank(frames::kBaseLink, "legend", 0,
-                                         visualization_msgs::Marker::TRIANGLE_LIST, stamp);
+  visualization_msgs::Marker bar =
+      blank(frames::kBaseLink, "legend", 0, visualization_msgs::Marker::TRIANGLE_LIST, stamp);
   bar.pose.orientation = toQuaternion(R_WB.transpose());
   const auto corner = [&](int side, int level) {
     const double angle = 0.25 * M_PI + 0.5 * M_PI * side, r = width / std::sqrt(2.0);
@@ -120,8 +121,8 @@ visualization_msgs::MarkerArray pressureLegend(const PressureReference& referenc
     visualization_msgs::Marker label =
         blank(frames::kBaseLink, "legend", static_cast<int>(out.markers.size()),
               visualization_msgs::Marker::TEXT_VIEW_FACING, stamp);
-    label.pose.position = toPoint(
-        R_WB.transpose() * (foot + along * right + up * Eigen::Vector3d::UnitZ()));
+    label.pose.position =
+        toPoint(R_WB.transpose() * (foot + along * right + up * Eigen::Vector3d::UnitZ()));
     label.scale.z = 0.09 * span;
     label.text = text;
     out.markers.push_back(label);

@@ -20,7 +20,9 @@ std::string format(const char* text, ...) {
   return out;
 }
 
-std::string xyz(const Eigen::Vector3d& v) { return format("%.15g %.15g %.15g", v.x(), v.y(), v.z()); }
+std::string xyz(const Eigen::Vector3d& v) {
+  return format("%.15g %.15g %.15g", v.x(), v.y(), v.z());
+}
 
 // Mass, its centre and the inertia about the centre; J is about the link's origin.
 std::string inertial(double m, const Eigen::Vector3d& nu, const Eigen::Matrix3d& J) {
@@ -28,9 +30,10 @@ std::string inertial(double m, const Eigen::Vector3d& nu, const Eigen::Matrix3d&
       J - m * (nu.squaredNorm() * Eigen::Matrix3d::Identity() - nu * nu.transpose());
   return "    <inertial>\n      <origin xyz=\"" + xyz(nu) + "\"/>\n" +
          format("      <mass value=\"%.15g\"/>\n", m) +
-         format("      <inertia ixx=\"%.15g\" ixy=\"%.15g\" ixz=\"%.15g\" iyy=\"%.15g\" iyz=\"%.15g\" "
-                "izz=\"%.15g\"/>\n",
-                C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2)) +
+         format(
+             "      <inertia ixx=\"%.15g\" ixy=\"%.15g\" ixz=\"%.15g\" iyy=\"%.15g\" iyz=\"%.15g\" "
+             "izz=\"%.15g\"/>\n",
+             C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2)) +
          "    </inertial>\n";
 }
 
@@ -58,7 +61,8 @@ std::string hinge(const std::string& name, const std::string& parent, const std:
          "\"/>\n    <axis xyz=\"" + xyz(axis) + "\"/>\n  </joint>\n";
 }
 
-// Shoulder and the three joints of one wing: Q = exp(beta e2) exp(+-phi e1) exp(-+psi e3) exp(theta e2).
+// Shoulder and the three joints of one wing: Q = exp(beta e2) exp(+-phi e1) exp(-+psi e3) exp(theta
+// e2).
 std::string wing(const Insect& insect, bool left, const std::string& mesh_uri) {
   const Appendage& part = left ? insect.left : insect.right;
   const std::string side = left ? "left" : "right";
@@ -67,8 +71,8 @@ std::string wing(const Insect& insect, bool left, const std::string& mesh_uri) {
   const std::string shoulder = side + "_shoulder_link", flap = side + "_flap_link",
                     deviation = side + "_deviation_link", blade = side + "_wing_link";
   return link(shoulder) + link(flap) + link(deviation) +
-         link(blade, inertial(part.m, part.nu, part.J) +
-                         visual(mesh_uri + side + "_wing.stl", "wing")) +
+         link(blade,
+              inertial(part.m, part.nu, part.J) + visual(mesh_uri + side + "_wing.stl", "wing")) +
          fixed("thorax_link", shoulder, part.mu, {0, insect.beta, 0}) +
          hinge(side + "_flap", shoulder, flap, here, {sign, 0, 0}) +
          hinge(side + "_deviation", flap, deviation, here, {0, 0, -sign}) +
@@ -96,10 +100,9 @@ std::string insectUrdf(const Insect& insect, const std::string& mesh_uri) {
                     "\">\n  <material name=\"wing\"><color rgba=\"0.85 0.45 0.10 1\"/></material>\n"
                     "  <material name=\"body\"><color rgba=\"0.20 0.17 0.15 1\"/></material>\n" +
                     link("base_link");
-  const std::string body =
-      insect.bare_wing
-          ? ""
-          : inertial(insect.m_B, here, insect.J_B) + visual(mesh_uri + "thorax.stl", "body");
+  const std::string body = insect.bare_wing ? ""
+                                            : inertial(insect.m_B, here, insect.J_B) +
+                                                  visual(mesh_uri + "thorax.stl", "body");
   out += link("thorax_link", body) + fixed("base_link", "thorax_link", here, {M_PI, 0, 0});
   out += wing(insect, false, mesh_uri);
   if (!insect.bare_wing) {
@@ -122,9 +125,9 @@ void writeMeshes(const Insect& insect, const std::string& directory) {
   writeFile(folder / "left_wing.stl", stlBytes(wingMesh(insect.planform, true)));
   writeFile(folder / "thorax.stl",
             stlBytes(ellipsoidMesh(here, insect.body_length, insect.body_width)));
-  writeFile(folder / "abdomen.stl",
-            stlBytes(ellipsoidMesh(abdomenCentre(insect), insect.abdomen_length,
-                                   insect.abdomen_width)));
+  writeFile(
+      folder / "abdomen.stl",
+      stlBytes(ellipsoidMesh(abdomenCentre(insect), insect.abdomen_length, insect.abdomen_width)));
 }
 
 }  // namespace monarch_flight

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What a person may type wrongly: one clear message, a non-zero exit code, nothing written."""
 import os
+import signal
 import subprocess
 import unittest
 
@@ -13,7 +14,7 @@ KEYS = ("case", "fluid", "grid", "flaps", "steps_per_flap", "out", "rviz", "reco
 class WrongInput(flying.FlightTest):
     def refused(self, *arguments):
         """Output of a command that must be refused at once, with its keys listed."""
-        code, output = self.fly(*arguments, limit=10)
+        code, output = self.fly(*arguments, limit=30)
         self.assertEqual(code, 2, output)
         for key in KEYS:
             self.assertRegex(output, r"(?m)^  %s " % key)
@@ -74,7 +75,7 @@ class WrongInput(flying.FlightTest):
             [os.path.join(flying.ROOT, "scripts", "master"), "answers", self.master]) == 0,
             30, "roscore")
         common = dict(ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")
-        first = self.start("case:=tethered_fwuav", "fluid:=quasi_steady", "flaps:=40",
+        first = self.start("case:=tethered_fwuav", "fluid:=quasi_steady", "flaps:=2000",
                            "out:=" + self.out("first"), **common)
         table = os.path.join(self.out("first"), "flight.csv.active")
         self.wait_for(lambda: os.path.exists(table), 120, "the first flight to begin")
@@ -83,9 +84,12 @@ class WrongInput(flying.FlightTest):
         self.assertEqual(code, 1, output)
         self.assertIn("a flight is running on %s already" % self.master, output)
         self.assertFalse(os.path.exists(self.out("second")))
-        code, output = self.finish(first, 120)  # the first has not been disturbed
-        self.assertEqual(code, 0, output)
-        self.assertEqual(flying.summary(self.out("first"))["flaps"], 40.0)
+        size = os.path.getsize(table)  # the first has not been disturbed
+        self.wait_for(lambda: os.path.getsize(table) > size, 30, "the first flight to go on")
+        first.send_signal(signal.SIGINT)
+        code, output = self.finish(first, 60)
+        self.assertEqual(code, 130, output)
+        self.assertIn("interrupted", flying.summary(self.out("first"))["failure"])
 
 
 if __name__ == "__main__":

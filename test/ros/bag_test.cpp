@@ -1,4 +1,5 @@
-// What a flight in one process records: topics, counts, and that the messages agree with each other.
+// What a flight in one process records: topics, counts, and that the messages agree with each
+// other.
 #include <gtest/gtest.h>
 #include <monarch_flight/FlightState.h>
 #include <monarch_flight/StepIterations.h>
@@ -107,14 +108,16 @@ TEST_F(Bag, TheTfTreeAloneGivesTheWings) {
     const JointAngles angles{triple(state->phi), triple(state->psi), interface.theta_R,
                              triple(state->theta_a)};
     const WingMotion wing = rightWingMotion(insect->insect, interface.body, angles);
-    const auto tf = buffer.lookupTransform("world_ned", "right_wing", state->header.stamp).transform;
+    const auto tf =
+        buffer.lookupTransform("world_ned", "right_wing", state->header.stamp).transform;
     const Eigen::Quaterniond q(tf.rotation.w, tf.rotation.x, tf.rotation.y, tf.rotation.z);
     EXPECT_LT((q.toRotationMatrix() - wing.R_IW).norm(), 1e-12);
     const Eigen::Vector3d r(tf.translation.x, tf.translation.y, tf.translation.z);
     EXPECT_LT((r - wing.r_I).norm(), 1e-15);
 
     // The left wing mirrors the right one across the body's x-z plane.
-    const auto left = buffer.lookupTransform("body_frd", "left_wing", state->header.stamp).transform;
+    const auto left =
+        buffer.lookupTransform("body_frd", "left_wing", state->header.stamp).transform;
     const auto right =
         buffer.lookupTransform("body_frd", "right_wing", state->header.stamp).transform;
     EXPECT_NEAR(right.translation.y, -left.translation.y, 1e-15);
@@ -141,8 +144,7 @@ TEST_F(Bag, OdometryIsTheStateInEastNorthUp) {
     EXPECT_EQ(-s.body.x.z(), o.pose.pose.position.z);
     const Eigen::Quaterniond q(o.pose.pose.orientation.w, o.pose.pose.orientation.x,
                                o.pose.pose.orientation.y, o.pose.pose.orientation.z);
-    const Eigen::Vector3d v(o.twist.twist.linear.x, o.twist.twist.linear.y,
-                            o.twist.twist.linear.z);
+    const Eigen::Vector3d v(o.twist.twist.linear.x, o.twist.twist.linear.y, o.twist.twist.linear.z);
     EXPECT_LT((q * v - nedToEnu() * s.body.v).norm(), 1e-12);
     EXPECT_EQ(-s.body.Omega_B.y(), o.twist.twist.angular.y);  // nose down about left, positive
   }

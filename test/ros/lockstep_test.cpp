@@ -1,127 +1,8 @@
 // The lockstep protocol over a real master: both ends, and messages that should not be there.
-#include <gtest/gtest.h>
-
-#include <atomic>
-#include <limits>
-#include <memory>
-#include <thread>
-
-#include "monarch_flight/ros_io/conversions.h"
-#include "monarch_flight/ros_io/lockstep_client.h"
-#include "monarch_flight/ros_io/lockstep_server.h"
+#include "ros/lockstep_fixture.h"
 
 namespace monarch_flight {
 namespace {
-
-const std::string kSha(64, 'a');
-
-/// A solver that answers the loads (step, iteration, number of computations) and can dawdle or fail.
-class ScriptedSolver : public Participant {
- public:
-  Reply exchange(const Request& request) override {
-    if (request.key.phase != Phase::kAbort) ++computed;
-    if (request.key.phase == slow_phase) ros::WallDuration(dawdle_s).sleep();
-    Reply reply;
-    reply.key = request.key;
-    reply.interface = request.interface;
-    reply.loads.force_pressure = {double(request.key.step), double(request.key.iteration),
-                                  double(computed.load())};
-    if (broken) reply.loads.force_pressure.x() = std::numeric_limits<double>::quiet_NaN();
-    return reply;
-  }
-  std::atomic<int> computed{0};
-  std::atomic<bool> broken{false};
-  Phase slow_phase = Phase::kCommit;
-  double dawdle_s = 0.0;
-};
-
-LockstepLimits shortLimits() {
-  LockstepLimits limits;
-  limits.connect_s = 5.0;
-  limits.exchange_s = 1.0;
-  limits.start_s = 2.0;
-  limits.silence_s = 30.0;
-  return limits;
-}
-
-/// Both ends in a namespace of their own; the server runs in a thread.
-class Lockstep : public testing::Test {
- protected:
-  Lockstep() : node(uniqueNamespace()) {
-    run.id = 42;
-    run.limits = shortLimits();
-    run.stop = &stop;
-  }
-  ~Lockstep() override { endServer(); }
-
-  void startServer(const LockstepIdentity& identity) {
-    server = std::make_unique<LockstepServer>(node, identity, solver, server_limits, server_stop);
-    thread = std::thread([this] {
-      try {
-        server->serve();
-        server_end = "ended";
-      } catch (const std::exception& e) {
-        server_end = e.what();
-      }
-    });
-  }
-  void endServer() {
-    server_stop = true;
-    if (thread.joinable()) thread.join();
-  }
-  void joinServer() {
-    if (thread.joinable()) thread.join();
-  }
-  void connect() {
-    startServer(fluid);
-    client = std::make_unique<RosParticipant>(node, fluid, run);
-    client->connect();
-  }
-  static Request request(std::uint32_t step, std::uint32_t iteration, Phase phase) {
-    Request out;
-    out.key = {42, step, iteration, phase};
-    out.t = 0.1 * step;
-    return out;
-  }
-  static std::string failureOf(Participant& participant, const Request& request) {
-    try {
-      participant.exchange(request);
-    } catch (const ExchangeError& e) {
-      return e.what();
-    }
-    return "no failure";
-  }
-  static std::string uniqueNamespace() {
-    static int count = 0;
-    return "/lockstep_" + std::to_string(++count);
-  }
-  // Publishes on a topic of the fluid once its listener is there.
-  template <class Message>
-  ros::Publisher injector(const std::string& name) {
-    ros::Publisher out = node.advertise<Message>("fluid/" + name, 8);
-    for (int i = 0; i < 200 && out.getNumSubscribers() == 0; ++i) ros::WallDuration(0.01).sleep();
-    EXPECT_GT(out.getNumSubscribers(), 0u);
-    return out;
-  }
-  // Waits until a value has been reached.
-  template <class Condition>
-  static bool eventually(Condition condition, double limit_s = 5.0) {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(limit_s);
-    while (!condition() && ros::WallTime::now() < end) ros::WallDuration(0.01).sleep();
-    return condition();
-  }
-
-  LockstepIdentity fluid{Role::kFluid, "climb", kSha};
-  LockstepLimits server_limits = shortLimits();
-  ros::NodeHandle node;
-  bool stop = false, server_stop = false;
-  LockstepRun run;
-  ScriptedSolver solver;
-  std::unique_ptr<LockstepServer> server;
-  std::unique_ptr<RosParticipant> client;
-  std::thread thread;
-  std::string server_end;
-};
 
 TEST_F(Lockstep, EveryExchangeIsAnsweredOnce) {
   connect();
@@ -230,7 +111,7 @@ TEST_F(Lockstep, AnAnswerThatComesTooLateIsNotTakenForTheNext) {
   ros::WallDuration(0.6).sleep();
   const Reply reply = client->exchange(request(1, 0, Phase::kCommit));
   EXPECT_EQ(Phase::kCommit, reply.key.phase);
-  EXPECT_EQ(3, solver.computed);                 // the request sent again came from the cache
+  EXPECT_EQ(3, solver.computed);  // the request sent again came from the cache
   EXPECT_EQ(1u, server->counters().repeated);
   EXPECT_EQ(2u, client->counters().late + client->counters().repeated);
 }
@@ -269,73 +150,6 @@ TEST_F(Lockstep, ANumberThatIsNotFiniteIsAnErrorAtTheBoundary) {
   solver.broken = true;
   const Reply reply = client->exchange(request(1, 0, Phase::kIterate));
   EXPECT_NE(std::string::npos, reply.error.find("not finite at step 1, sub-iteration 0, ITERATE"));
-}
-
-TEST_F(Lockstep, DifferentCasesAreRefusedOnBothSides) {
-  LockstepIdentity other = fluid;
-  other.case_name = "hinge";
-  other.case_sha256 = std::string(64, 'b');
-  startServer(other);
-  client = std::make_unique<RosParticipant>(node, fluid, run);
-  try {
-    client->connect();
-    FAIL() << "the client agreed";
-  } catch (const ExchangeError& e) {
-    const std::string what = e.what();
-    EXPECT_NE(std::string::npos, what.find("the fluid node")) << what;
-    EXPECT_NE(std::string::npos, what.find("hinge (sha256 bbbbbbbbbbbb)")) << what;
-    EXPECT_NE(std::string::npos, what.find("climb (sha256 aaaaaaaaaaaa)")) << what;
-  }
-  joinServer();
-  EXPECT_NE(std::string::npos, server_end.find("handshake refused")) << server_end;
-  EXPECT_NE(std::string::npos, server_end.find("climb (sha256 aaaaaaaaaaaa)")) << server_end;
-  EXPECT_EQ(0, solver.computed);
-}
-
-TEST_F(Lockstep, AnotherProtocolVersionIsRefused) {
-  client = std::make_unique<RosParticipant>(node, fluid, run);
-  Hello hello = makeHello(fluid, run.id);
-  hello.protocol = 99;
-  ros::Publisher raw = node.advertise<Hello>("fluid/hello", 8, true);
-  raw.publish(hello);
-  try {
-    client->connect();
-    FAIL() << "the client agreed";
-  } catch (const ExchangeError& e) {
-    EXPECT_NE(std::string::npos, std::string(e.what()).find("protocol version 1 here, 99 in"));
-  }
-  Hello old = makeHello(fluid, 1);
-  old.role = "wing";
-  EXPECT_NE(std::string::npos, disagreement(fluid, old).find("role fluid here, wing in"));
-  EXPECT_EQ("", disagreement(fluid, makeHello(fluid, 1)));
-}
-
-TEST_F(Lockstep, AnAnswerToAnotherRunIsNoHandshake) {
-  run.limits.connect_s = 0.5;
-  client = std::make_unique<RosParticipant>(node, fluid, run);
-  ros::Publisher raw = node.advertise<Hello>("fluid/hello", 8, true);
-  raw.publish(makeHello(fluid, run.id + 1));
-  EXPECT_THROW(client->connect(), ExchangeError);
-  EXPECT_EQ(1u, client->counters().foreign);
-}
-
-TEST_F(Lockstep, AMissingParticipantIsNamed) {
-  run.limits.connect_s = 0.5;
-  client = std::make_unique<RosParticipant>(node, fluid, run);
-  try {
-    client->connect();
-    FAIL() << "connected to nobody";
-  } catch (const ExchangeError& e) {
-    EXPECT_NE(std::string::npos, std::string(e.what()).find(
-                                     "the fluid node did not answer the handshake within 0.5 s"));
-  }
-}
-
-TEST_F(Lockstep, AMissingCoordinatorIsNoticed) {
-  server_limits.connect_s = 0.5;
-  startServer(fluid);
-  joinServer();
-  EXPECT_NE(std::string::npos, server_end.find("no coordinator appeared within 0.5 s"));
 }
 
 TEST_F(Lockstep, ALostCoordinatorIsNoticed) {
@@ -384,15 +198,6 @@ TEST_F(Lockstep, AnInterruptEndsAWait) {
   interrupt.join();
   EXPECT_NE(std::string::npos, failure.find("interrupted while waiting for the fluid node"));
   EXPECT_LT((ros::WallTime::now() - begin).toSec(), 0.5);
-}
-
-TEST(Limits, FollowFromTheWatchdog) {
-  const LockstepLimits limits = limitsFor(60.0);
-  EXPECT_EQ(60.0, limits.exchange_s);
-  EXPECT_EQ(60.0, limits.connect_s);
-  EXPECT_EQ(600.0, limits.start_s);
-  EXPECT_EQ(180.0, limits.silence_s);
-  EXPECT_EQ(30.0, limitsFor(2.0).connect_s);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ class Nodes : public testing::Test {
   }
   std::unique_ptr<Process> start(const std::string& name, const std::string& log = "") {
     const std::string file = folder / ((log.empty() ? name : log) + ".log");
-    return std::make_unique<Process>(std::string(NODE_DIR) + "/" + name,
-                                     std::vector<std::string>(), file);
+    return std::make_unique<Process>(std::string(NODE_DIR) + "/" + name, std::vector<std::string>(),
+                                     file);
   }
   void startAll() {
     coordinator = start("coordinator");
@@ -89,8 +89,8 @@ TEST_F(Nodes, AHungNodeEndsTheRunByTheWatchdogAndIsNamed) {
   startLongFlight();
   fluid->send(SIGSTOP);
   EXPECT_EQ(1, coordinator->wait(15.0)) << coordinator->output();
-  EXPECT_TRUE(contains(coordinator->output(),
-                       "the fluid node (/monarch_flight/fluid) did not answer step"))
+  EXPECT_TRUE(
+      contains(coordinator->output(), "the fluid node (/monarch_flight/fluid) did not answer step"))
       << coordinator->output();
   EXPECT_TRUE(contains(coordinator->output(), "within 1.5 s (watchdog)"));
   EXPECT_EQ(0, flight->wait(5.0)) << flight->output();

@@ -1,10 +1,9 @@
 // Parameters of a run: command line and parameter server, every fault at once.
-#include "monarch_flight/ros_io/run_parameters.h"
-
 #include <XmlRpcValue.h>
 #include <gtest/gtest.h>
 
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/ros_io/run_parameters.h"
 
 namespace monarch_flight {
 namespace {

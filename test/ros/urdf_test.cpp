@@ -1,4 +1,6 @@
 // The URDF moved by robot_state_publisher from joint states gives the frames of the coordinator.
+#include "monarch_flight/viz/urdf.h"
+
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <tf2/buffer_core.h>
@@ -9,7 +11,6 @@
 #include "monarch_flight/ros_io/frames.h"
 #include "monarch_flight/ros_io/run_parameters.h"
 #include "monarch_flight/viz/mesh.h"
-#include "monarch_flight/viz/urdf.h"
 #include "ros/process.h"
 
 namespace monarch_flight {
@@ -76,7 +77,7 @@ TEST(Urdf, MovesLikeTheFrames) {
       "/tf_static", 100, [&keep](const tf2_msgs::TFMessageConstPtr& m) { keep(m, true); });
   const ros::Publisher joint_states = node.advertise<sensor_msgs::JointState>("/joint_states", 8);
   for (int i = 0; i < 1000 && (joint_states.getNumSubscribers() == 0 ||
-                              moving.getNumPublishers() == 0 || fixed.getNumPublishers() == 0);
+                               moving.getNumPublishers() == 0 || fixed.getNumPublishers() == 0);
        ++i) {
     ros::WallDuration(0.01).sleep();
   }
@@ -89,7 +90,9 @@ TEST(Urdf, MovesLikeTheFrames) {
   for (std::uint32_t i = 1; i <= 20; ++i) {
     CommittedStep step;
     step.step = i;
-    step.angles = {{angle(generator), 0, 0}, {angle(generator), 0, 0}, {angle(generator), 0, 0},
+    step.angles = {{angle(generator), 0, 0},
+                   {angle(generator), 0, 0},
+                   {angle(generator), 0, 0},
                    {angle(generator), 0, 0}};
     for (const StampedMessage& m : messages.of(step)) {
       const auto* joints = std::get_if<sensor_msgs::JointState>(&m.message);

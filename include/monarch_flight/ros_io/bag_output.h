@@ -8,8 +8,8 @@
 
 namespace monarch_flight {
 
-/// Writes messages into a bag, under `<path>.active` until it is closed. Every failure of the disk is
-/// an OutputError naming the file; what was written before stays under the active name.
+/// Writes messages into a bag, under `<path>.active` until it is closed. Every failure of the disk
+/// is an OutputError naming the file; what was written before stays under the active name.
 class BagOutput : public MessageOutput {
  public:
   explicit BagOutput(const std::string& path);

@@ -16,7 +16,8 @@ namespace monarch_flight {
 /// Version of the lockstep protocol that this build speaks.
 constexpr std::uint32_t kProtocolVersion = ParticipantRequest::PROTOCOL;
 
-/// Core structs to messages and back. Every number crosses bit for bit: fromMessage(toMessage(x)) == x.
+/// Core structs to messages and back. Every number crosses bit for bit: fromMessage(toMessage(x))
+/// == x.
 CouplingKey toMessage(const ExchangeKey& key);
 InterfaceState toMessage(const Interface& interface);
 WingLoads toMessage(const Loads& loads);
@@ -32,7 +33,8 @@ Request fromMessage(const ParticipantRequest& request);
 Reply fromMessage(const ParticipantReply& reply);
 IterationRecord fromMessage(const SubIteration& record);
 
-/// Why a message cannot be used (protocol version, phase); empty when it can. Says nothing of the run.
+/// Why a message cannot be used (protocol version, phase); empty when it can. Says nothing of the
+/// run.
 std::string problem(const ParticipantRequest& request);
 std::string problem(const ParticipantReply& reply);
 

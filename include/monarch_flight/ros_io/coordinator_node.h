@@ -14,8 +14,8 @@ class CoordinatorNode {
  public:
   /// Reads and checks the parameters of /monarch_flight. Throws InputError.
   explicit CoordinatorNode(const bool& stop);
-  /// Runs the whole case; returns an exit code. Throws InputError, ExchangeError, OutputError for what
-  /// goes wrong before the first step.
+  /// Runs the whole case; returns an exit code. Throws InputError, ExchangeError, OutputError for
+  /// what goes wrong before the first step.
   int run();
 
  private:

@@ -44,9 +44,9 @@ constexpr char kIterations[] = "/monarch_flight/iterations";
 
 using FlightMessage =
     std::variant<rosgraph_msgs::Clock, tf2_msgs::TFMessage, sensor_msgs::JointState,
-                 diagnostic_msgs::DiagnosticArray, std_msgs::String, FlightState, nav_msgs::Odometry,
-                 nav_msgs::Path, geometry_msgs::WrenchStamped, visualization_msgs::MarkerArray,
-                 sensor_msgs::PointCloud2, StepIterations>;
+                 diagnostic_msgs::DiagnosticArray, std_msgs::String, FlightState,
+                 nav_msgs::Odometry, nav_msgs::Path, geometry_msgs::WrenchStamped,
+                 visualization_msgs::MarkerArray, sensor_msgs::PointCloud2, StepIterations>;
 
 /// A message with its place and time: what is published and what is recorded are the same.
 struct StampedMessage {
@@ -56,8 +56,8 @@ struct StampedMessage {
   bool latched = false;
 };
 
-/// Stamp of a step: 1 s + step dt (rosbag refuses 0), rounded to a nanosecond from the integer step, so
-/// that nothing accumulates.
+/// Stamp of a step: 1 s + step dt (rosbag refuses 0), rounded to a nanosecond from the integer
+/// step, so that nothing accumulates.
 ros::Time stampOf(std::uint32_t step, const TimeGrid& time);
 
 /// Turns committed steps into messages; keeps the path flown so far.

@@ -11,8 +11,8 @@
 
 namespace monarch_flight {
 
-/// One flight with everything it writes and shows: files, bag (when recorded), topics, progress bar.
-/// The same for the coordinator node and for a run in one process.
+/// One flight with everything it writes and shows: files, bag (when recorded), topics, progress
+/// bar. The same for the coordinator node and for a run in one process.
 class FlightRun {
  public:
   /// Makes the folder `out`. `listeners` also get the messages. Throws InputError, OutputError.

@@ -10,16 +10,17 @@
 namespace monarch_flight {
 
 /// Names of the tf tree: world -> world_ned; world -> base_link -> body_frd -> stroke_plane ->
-/// right_wing, left_wing; body_frd -> abdomen. REP-103: world is ENU, base_link x forward, y left, z up.
+/// right_wing, left_wing; body_frd -> abdomen. REP-103: world is ENU, base_link x forward, y left,
+/// z up.
 namespace frames {
-constexpr char kWorld[] = "world";            ///< ENU
-constexpr char kWorldNed[] = "world_ned";     ///< F_I: x north, y east, z down, same origin
-constexpr char kBaseLink[] = "base_link";     ///< at the body's mass centre
-constexpr char kBodyFrd[] = "body_frd";       ///< F_B: the same point, x forward, y right, z down
+constexpr char kWorld[] = "world";         ///< ENU
+constexpr char kWorldNed[] = "world_ned";  ///< F_I: x north, y east, z down, same origin
+constexpr char kBaseLink[] = "base_link";  ///< at the body's mass centre
+constexpr char kBodyFrd[] = "body_frd";    ///< F_B: the same point, x forward, y right, z down
 constexpr char kStrokePlane[] = "stroke_plane";  ///< F_S: F_B turned by beta about y
-constexpr char kRightWing[] = "right_wing";   ///< F_R, at the wing's root
-constexpr char kLeftWing[] = "left_wing";     ///< F_L, at the wing's root
-constexpr char kAbdomen[] = "abdomen";        ///< F_A, at its joint
+constexpr char kRightWing[] = "right_wing";      ///< F_R, at the wing's root
+constexpr char kLeftWing[] = "left_wing";        ///< F_L, at the wing's root
+constexpr char kAbdomen[] = "abdomen";           ///< F_A, at its joint
 }  // namespace frames
 
 /// Takes NED components to ENU components (its own inverse).
@@ -36,7 +37,8 @@ geometry_msgs::Vector3 toVector3(const Eigen::Vector3d& v);
 /// Transforms that never change: world_ned, body_frd, stroke_plane.
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const Insect& insect,
                                                               const ros::Time& stamp);
-/// Transforms of one committed state: base_link, right_wing and, unless a bare wing, left_wing, abdomen.
+/// Transforms of one committed state: base_link, right_wing and, unless a bare wing, left_wing,
+/// abdomen.
 std::vector<geometry_msgs::TransformStamped> movingTransforms(const Insect& insect,
                                                               const BodyState& body,
                                                               const JointAngles& angles,

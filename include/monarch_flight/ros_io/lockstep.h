@@ -26,8 +26,9 @@ struct LockstepLimits {
   double silence_s = 180.0;  ///< participant: between two requests
 };
 
-/// Limits that follow from the watchdog of a case: START may take ten times as long as an exchange; a
-/// participant bears the silence of two exchanges (START: two STARTs) with the other two and one more.
+/// Limits that follow from the watchdog of a case: START may take ten times as long as an exchange;
+/// a participant bears the silence of two exchanges (START: two STARTs) with the other two and one
+/// more.
 LockstepLimits limitsFor(double watchdog_s);
 
 /// What one end has seen and ignored.
@@ -47,7 +48,8 @@ constexpr std::uint32_t kLockstepQueue = 8;
 std::string inSeconds(double s);
 
 /// Hello of this node; `run` is 0 only before the coordinator's number is known.
-Hello makeHello(const LockstepIdentity& identity, std::uint64_t run, const std::string& refusal = "");
+Hello makeHello(const LockstepIdentity& identity, std::uint64_t run,
+                const std::string& refusal = "");
 /// Why `other` does not fit (protocol, role, case), naming both values; empty when it fits.
 std::string disagreement(const LockstepIdentity& own, const Hello& other);
 
@@ -85,10 +87,9 @@ ros::Subscriber subscribeOn(ros::CallbackQueue& queue, ros::NodeHandle& node,
                             void (Object::*callback)(const boost::shared_ptr<Message const>&),
                             Object* object) {
   ros::SubscribeOptions options;
-  options.template init<Message>(topic, kLockstepQueue,
-                                 [object, callback](const boost::shared_ptr<Message const>& m) {
-                                   (object->*callback)(m);
-                                 });
+  options.template init<Message>(
+      topic, kLockstepQueue,
+      [object, callback](const boost::shared_ptr<Message const>& m) { (object->*callback)(m); });
   options.callback_queue = &queue;
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   return node.subscribe(options);

@@ -16,7 +16,7 @@ struct LockstepRun {
   ros::CallbackQueue queue;  ///< of all connections: whoever waits also sees the others get lost
   std::uint64_t id = 0;
   LockstepLimits limits;
-  const bool* stop = nullptr;  ///< ends every wait when it becomes true
+  const bool* stop = nullptr;                       ///< ends every wait when it becomes true
   std::vector<const RosParticipant*> participants;  ///< registered by their constructors
 };
 
@@ -32,8 +32,9 @@ class RosParticipant : public Participant {
   /// Handshake; returns when both directions are connected and the participant has agreed. Throws
   /// ExchangeError naming the node and the reason: refusal, disagreement or no answer in connect_s.
   void connect();
-  /// Precondition: connect() returned. Asks again once, after half the limit. Throws ExchangeError naming
-  /// participant, step, sub-iteration and phase: no reply in time, a node of the run lost, interrupted.
+  /// Precondition: connect() returned. Asks again once, after half the limit. Throws ExchangeError
+  /// naming participant, step, sub-iteration and phase: no reply in time, a node of the run lost,
+  /// interrupted.
   Reply exchange(const Request& request) override;
   /// False before the handshake, and again once the node of this participant has gone.
   bool connected() const;

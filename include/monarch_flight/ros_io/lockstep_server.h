@@ -16,8 +16,9 @@ class LockstepServer {
   LockstepServer(const ros::NodeHandle& node, const LockstepIdentity& identity,
                  Participant& participant, const LockstepLimits& limits, const bool& stop);
 
-  /// Serves one run, until the coordinator has ended it (ABORT) and left. Throws ExchangeError: no coordinator within
-  /// connect_s, disagreement in the handshake, coordinator lost or silent for silence_s, interrupted.
+  /// Serves one run, until the coordinator has ended it (ABORT) and left. Throws ExchangeError: no
+  /// coordinator within connect_s, disagreement in the handshake, coordinator lost or silent for
+  /// silence_s, interrupted.
   void serve();
 
   const LockstepCounters& counters() const { return counters_; }
@@ -40,13 +41,13 @@ class LockstepServer {
   WatchedPublisher<Hello> hello_out_;
   WatchedPublisher<ParticipantReply> replies_;
   ros::Subscriber hello_in_, requests_;
-  HelloConstPtr coordinator_;   // the newest before the first request, then fixed
-  std::string refusal_;         // why this node does not fly with coordinator_; empty: it does
-  bool started_ = false;        // START has been answered
-  bool iterating_ = false;      // START of all participants is over
-  bool ended_ = false;          // the coordinator has ended the run
+  HelloConstPtr coordinator_;  // the newest before the first request, then fixed
+  std::string refusal_;        // why this node does not fly with coordinator_; empty: it does
+  bool started_ = false;       // START has been answered
+  bool iterating_ = false;     // START of all participants is over
+  bool ended_ = false;         // the coordinator has ended the run
   ros::WallTime last_heard_;
-  ParticipantReply cache_;      // answer to the last request, when started_
+  ParticipantReply cache_;  // answer to the last request, when started_
   LockstepCounters counters_;
 };
 

@@ -5,9 +5,9 @@
 
 namespace monarch_flight {
 
-/// Preconditions of a node, asked from the master before the node registers (registering would make the
-/// master shut down an older node of the same name). Call after ros::init. Throws InputError: no master
-/// answers; a living node already has this node's name (a second run).
+/// Preconditions of a node, asked from the master before the node registers (registering would make
+/// the master shut down an older node of the same name). Call after ros::init. Throws InputError:
+/// no master answers; a living node already has this node's name (a second run).
 void requireFreeMaster();
 
 /// The parameters of a namespace as the master holds them; an invalid value when there are none.

@@ -12,8 +12,8 @@ enum ExitCode { kExitComplete = 0, kExitFailed = 1, kExitInput = 2, kExitInterru
 /// True once SIGINT or SIGTERM has come; set by the handlers that the mains below install.
 const bool& stopRequested();
 
-/// Mains of the executables: read, check, wire, run; return the exit code and print every failure as
-/// one message on stderr.
+/// Mains of the executables: read, check, wire, run; return the exit code and print every failure
+/// as one message on stderr.
 int coordinatorMain(int argc, char** argv);
 int participantMain(Role role, int argc, char** argv);
 /// participantMain of the fluid on the processes that mpirun started; process 0 speaks ROS.
@@ -21,7 +21,8 @@ int fluidMain(int argc, char** argv);
 /// The same flight without a master: key:=value arguments.
 int inProcessMain(int argc, char** argv);
 /// Prints the URDF of a case's insect and writes its meshes: case:=<name or path>, out:=<folder>
-/// (default: ~/.ros/monarch_flight/model-<case>), mesh_uri:=<where the URDF finds them> (default: out).
+/// (default: ~/.ros/monarch_flight/model-<case>), mesh_uri:=<where the URDF finds them> (default:
+/// out).
 int insectModelMain(int argc, char** argv);
 
 }  // namespace monarch_flight

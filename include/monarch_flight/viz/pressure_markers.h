@@ -15,9 +15,9 @@ struct PressureReference {
   double dynamic = 1.0;  ///< rho U_ref^2 / 2 [Pa]
 };
 
-/// U_ref is the largest speed of the wing's tip through the air that the prescribed motion reaches in
-/// [t_start, t_start + duration]; 1 m/s when it does not move. One constant for the whole run, so that
-/// colours of different times compare.
+/// U_ref is the largest speed of the wing's tip through the air that the prescribed motion reaches
+/// in [t_start, t_start + duration]; 1 m/s when it does not move. One constant for the whole run,
+/// so that colours of different times compare.
 PressureReference pressureReference(const Insect& insect, const PrescribedMotion& motion,
                                     const Air& air, double t_start, double duration);
 
@@ -25,14 +25,15 @@ PressureReference pressureReference(const Insect& insect, const PrescribedMotion
 constexpr double kPressureRange = 1.0;
 
 /// Both sides of the right wing as triangles coloured by Cp in frame right_wing and, unless a bare
-/// wing, the mirror image in left_wing; the sides lie `lift` [m] off the wing's plane. Locked to the
-/// frames: they move with the wings until the next picture.
+/// wing, the mirror image in left_wing; the sides lie `lift` [m] off the wing's plane. Locked to
+/// the frames: they move with the wings until the next picture.
 visualization_msgs::MarkerArray pressureMarkers(const SurfacePressure& surface,
                                                 const PressureReference& reference, bool bare_wing,
                                                 double lift, const ros::Time& stamp);
 
-/// Colour bar with numbers, upright in world, in front of the insect; moves with base_link. `span` is the
-/// wing's span [m] (all sizes scale with it), `R_WB` takes base_link components to world components.
+/// Colour bar with numbers, upright in world, in front of the insect; moves with base_link. `span`
+/// is the wing's span [m] (all sizes scale with it), `R_WB` takes base_link components to world
+/// components.
 visualization_msgs::MarkerArray pressureLegend(const PressureReference& reference, double span,
                                                const Eigen::Matrix3d& R_WB, const ros::Time& stamp);
 

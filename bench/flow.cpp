@@ -1,0 +1,105 @@
+// Whole steps of the flow solver: time and memory per cell as one line of JSON. Under mpirun the
+// grid is shared among the processes.
+#include "fluid/flow.h"
+
+#include <mpi.h>
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "monarch_flight/fluid/processes.h"
+#include "subject.h"
+
+using namespace monarch_flight;
+
+namespace {
+
+double peakBytes() {
+  rusage r;
+  getrusage(RUSAGE_SELF, &r);
+  return 1024.0 * r.ru_maxrss;
+}
+
+struct Sample {
+  double cpu = 0, wall = 0;  // [s]
+  Sample operator+(const Sample& o) const { return {cpu + o.cpu, wall + o.wall}; }
+};
+
+template <class Work>
+Sample sample(Work work) {
+  const double cpu = cpuSeconds(), wall = wallSeconds();
+  work();
+  return {cpuSeconds() - cpu, wallSeconds() - wall};
+}
+
+nlohmann::json nsPerCell(const std::vector<Sample>& samples, long cells) {
+  std::vector<double> cpu, wall;
+  for (const Sample& s : samples) {
+    cpu.push_back(1e9 * s.cpu / cells);
+    wall.push_back(1e9 * s.wall / cells);
+  }
+  return {{"best", best(cpu)},
+          {"median", median(cpu)},
+          {"wall_best", best(wall)},
+          {"wall_median", median(wall)}};
+}
+
+nlohmann::json measure(NavierStokes& flow, const Subject& subject, int repeats) {
+  constexpr int kWarmUp = 2;  // the first step is of first order
+  std::vector<Sample> first, again, commit, full;
+  long long sent = 0;
+  Loads loads;
+  const double dt = subject.dt(flow.grid());
+  flow.start(subject.motion(0), dt);
+  for (int n = 1; n <= kWarmUp + repeats; ++n) {
+    const WingMotion next = subject.motion(n * dt);
+    const long long before = flow.slab().doublesSent();
+    const Sample a = sample([&] { loads = flow.evaluate(next); });
+    const long long between = flow.slab().doublesSent();
+    const Sample b = sample([&] { flow.evaluate(next); });
+    const long long after = flow.slab().doublesSent();
+    const Sample c = sample([&] { flow.commit(); });
+    if (n <= kWarmUp) continue;
+    first.push_back(a), again.push_back(b), commit.push_back(c), full.push_back(a + c);
+    sent += between - before + flow.slab().doublesSent() - after;
+  }
+  const long cells = flow.cells();
+  return {{"full_ns", nsPerCell(full, cells)},
+          {"first_ns", nsPerCell(first, cells)},
+          {"repeated_ns", nsPerCell(again, cells)},
+          {"commit_ns", nsPerCell(commit, cells)},
+          {"doubles_sent_per_step", sent / repeats},
+          {"force", {loads.force().x(), loads.force().y(), loads.force().z()}},
+          {"moment", {loads.moment().x(), loads.moment().y(), loads.moment().z()}}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Processes processes(&argc, &argv);
+  const double cells = argc > 1 ? std::atof(argv[1]) : 0, most = 1e8;
+  const int repeats = argc > 2 ? std::atoi(argv[2]) : 10;
+  if (!(cells >= 1e4 && cells <= most) || repeats < 1) {
+    std::cerr << "usage: bench_flow <cells, 1e4 to 1e8> [repeats, >= 1]\n";
+    return 2;
+  }
+  const Subject subject;
+  const double memory_before = peakBytes(), begin = cpuSeconds();
+  NavierStokes flow(subject.grid(cells), subject.air(), subject.chord(), kCourantLimit,
+                    flowProcesses() > 1 ? MPI_COMM_WORLD : MPI_COMM_NULL);
+  const double setup = cpuSeconds() - begin;
+  nlohmann::json result = measure(flow, subject, repeats);
+  const Grid& g = flow.grid();
+  result["cells"] = flow.cells();
+  result["size"] = {g.x.n(), g.y.n(), g.z.n()};
+  result["wing_faces"] = std::count(g.wing.begin(), g.wing.end(), 1);
+  result["ranks"] = processes.count();
+  result["setup_s"] = setup;
+  result["bytes_per_cell"] =
+      (peakBytes() - memory_before) * flow.slab().ranks() / static_cast<double>(flow.cells());
+  result["courant"] = flow.report().courant;
+  if (processes.rank() == 0) std::cout << std::setprecision(17) << result << std::endl;
+  return 0;
+}

@@ -1,0 +1,21 @@
+# Benchmarks: built only when asked for (`make bench_flow bench_kernels`; scripts/bench does).
+function(add_bench name)
+  add_executable(bench_${name} EXCLUDE_FROM_ALL bench/${name}.cpp)
+  target_include_directories(bench_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_compile_definitions(bench_${name} PRIVATE CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config")
+  target_link_libraries(bench_${name} PRIVATE monarch_run nlohmann_json::nlohmann_json ${ARGN})
+endfunction()
+
+add_bench(flow)
+add_bench(openfoam_case)
+
+find_package(benchmark QUIET)
+if(benchmark_FOUND)
+  add_bench(kernels benchmark::benchmark BLAS::BLAS)
+endif()
+find_library(HYPRE_LIBRARY HYPRE)
+find_path(HYPRE_INCLUDE_DIR HYPRE.h PATH_SUFFIXES hypre)
+if(HYPRE_LIBRARY AND HYPRE_INCLUDE_DIR)
+  add_bench(hypre ${HYPRE_LIBRARY})
+  target_include_directories(bench_hypre SYSTEM PRIVATE ${HYPRE_INCLUDE_DIR})
+endif()

@@ -1,0 +1,193 @@
+// The z factor, which sees the wall's new velocity, on one process or several.
+#include <algorithm>
+
+#include "fluid/momentum.h"
+
+namespace monarch_flight {
+
+struct Momentum::Lines {
+  int component;
+  const double* side;  // right sides (layout of the fields)
+  double* x;           // solution in place of the reduced right sides (layout of the fields)
+  double* gamma;       // off-diagonal left after elimination, of the point (0, j, 0)
+  std::ptrdiff_t gamma_plane;  // stride of k in gamma
+  std::ptrdiff_t gamma_row;    // stride of j in gamma
+  double* gammaAt(int j, int k) const { return gamma + j * gamma_row + k * gamma_plane; }
+};
+
+void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
+                            int j, int k, int towards) {
+  const int component = lines.component, i0 = first(component, 0), i1 = last(component, 0);
+  const int kw = grid_.k_wing;
+  double* lower = lower_.data();
+  double* upper = upper_.data();
+  coefficientsZ(c, component, j, k, towards, &z_behind_[j * layout_.sy], {lower, upper});
+  const bool is_end = towards > 0 ? k == (component == 2) : k == layout_.nz - 1;
+  const std::ptrdiff_t row = layout_.at(0, j, k);
+  const double* __restrict near = towards > 0 ? lower : upper;
+  const double* __restrict far = towards > 0 ? upper : lower;
+  const double* __restrict r = lines.side + row;
+  double* __restrict d = lines.x + row;
+  double* __restrict g = lines.gammaAt(j, k);
+  const double* __restrict dp = is_end ? zero_.data() : lines.x + row - towards * layout_.sz;
+  const double* __restrict gp = is_end ? zero_.data() : lines.gammaAt(j, k - towards);
+  if (component != 2 &&
+      (k == kw || k == kw - 1)) {  // sees the wall at half a cell where it is wing
+    const double y = position(component, 1, j);
+    cutAtWing(component, j, k, k == kw ? lower : upper, wall_diagonal_.data());
+    for (int i = i0; i <= i1; ++i) {
+      wall_side_[i] = wall_diagonal_[i] * wall_change.at(component, position(component, 0, i), y);
+    }
+    for (int i = i0; i <= i1; ++i) {
+      const double inv = 1 / (1 - near[i] - far[i] + wall_diagonal_[i] - near[i] * gp[i]);
+      g[i] = far[i] * inv;
+      d[i] = (r[i] + wall_side_[i] - near[i] * dp[i]) * inv;
+    }
+    return;
+  }
+  for (int i = i0; i <= i1; ++i) {
+    const double inv = 1 / (1 - near[i] - far[i] - near[i] * gp[i]);
+    g[i] = far[i] * inv;
+    d[i] = (r[i] - near[i] * dp[i]) * inv;
+  }
+  if (component == 2 && k == kw) {
+    for (int i = i0; i <= i1; ++i) {
+      if (!grid_.isWing(i, j)) continue;
+      g[i] = 0;
+      d[i] = wall_change.at(2, grid_.x.centre[i], grid_.y.centre[j]);
+    }
+  }
+}
+
+/// Half 0: the planes below the wing's, upwards; half 1: those above, downwards.
+void Momentum::eliminate(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
+                         RowRange rows, int half) {
+  const int k0 = first(lines.component, 2), k1 = last(lines.component, 2), kw = grid_.k_wing;
+  const int begin = half == 0 ? k0 : k1, end = half == 0 ? std::min(k1, kw - 1) : std::max(k0, kw);
+  const int towards = half == 0 ? +1 : -1, planes = (end - begin) * towards + 1;
+  if (planes <= 0) return;
+  for (int j = rows.first; j <= rows.last; ++j)
+    faceBehindZ(c, lines.component, j, begin, towards, &z_behind_[j * layout_.sy]);
+  for (int n = 0; n < planes; ++n) {
+    for (int j = rows.first; j <= rows.last; ++j)
+      eliminateRow(c, wall_change, lines, j, begin + n * towards, towards);
+  }
+}
+
+/// The two points that meet at the wing's plane, of which this process owns one or both.
+void Momentum::join(const Lines& lines, RowRange rows) const {
+  const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
+  for (int j = rows.first; j <= rows.last; ++j) {
+    const double* __restrict ga = lines.gammaAt(j, kw - 1);
+    const double* __restrict gb = lines.gammaAt(j, kw);
+    double* __restrict a = lines.x + layout_.at(0, j, kw - 1);
+    double* __restrict b = lines.x + layout_.at(0, j, kw);
+    for (int i = i0; i <= i1; ++i) {
+      const double inv = 1 / (1 - ga[i] * gb[i]), below = a[i], above = b[i];
+      a[i] = (below - ga[i] * above) * inv;
+      b[i] = (above - gb[i] * below) * inv;
+    }
+  }
+}
+
+void Momentum::substitute(const Lines& lines, RowRange rows, int half) const {
+  const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
+  const int k0 = first(lines.component, 2), k1 = last(lines.component, 2);
+  const int begin = half == 0 ? std::min(k1, kw - 2) : std::max(k0, kw + 1);
+  const int count = half == 0 ? begin - k0 + 1 : k1 - begin + 1, towards = half == 0 ? -1 : +1;
+  for (int n = 0; n < count; ++n) {
+    const int k = begin + n * towards;
+    for (int j = rows.first; j <= rows.last; ++j) {
+      double* __restrict x = lines.x + layout_.at(0, j, k);
+      const double* __restrict solved = x - towards * layout_.sz;
+      const double* __restrict g = lines.gammaAt(j, k);
+      for (int i = i0; i <= i1; ++i) x[i] -= g[i] * solved[i];
+    }
+  }
+}
+
+void Momentum::addLevel(const Lines& lines, const Velocity& vn, RowRange rows) const {
+  const int i0 = first(lines.component, 0), i1 = last(lines.component, 0);
+  for (int k = first(lines.component, 2); k <= last(lines.component, 2); ++k) {
+    for (int j = rows.first; j <= rows.last; ++j) {
+      const double* __restrict v = vn.c[lines.component].data() + layout_.at(0, j, k);
+      double* __restrict x = lines.x + layout_.at(0, j, k);
+      for (int i = i0; i <= i1; ++i) x[i] += v[i];
+    }
+  }
+}
+
+void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int component,
+                      const Velocity& vn, Velocity& v_star) {
+  const int j0 = first(component, 1), j1 = last(component, 1), kw = grid_.k_wing;
+  Lines lines{component,     delta_.c[component].data(), v_star.c[component].data(),
+              gamma_.data(), kRowsZ * layout_.sy,        layout_.sy};
+  if (slab_.ranks() == 1) {
+    for (int j = j0; j <= j1; j += kRowsZ) {
+      const RowRange rows{j, std::min(j + kRowsZ - 1, j1)};
+      lines.gamma = gamma_.data() - j * layout_.sy;
+      eliminate(c, wall_change, lines, rows, 0);
+      eliminate(c, wall_change, lines, rows, 1);
+      join(lines, rows);
+      substitute(lines, rows, 0);
+      substitute(lines, rows, 1);
+      addLevel(lines, vn, rows);
+    }
+    return;
+  }
+  const RowRange rows{j0, j1};
+  // The same with the lines cut by slabs: planes pass from process to process towards the wing and
+  // back.
+  lines.gamma = gamma_field_.data() + layout_.at(0, 0, 0);
+  lines.gamma_plane = layout_.sz;
+  lines.gamma_row = layout_.sy;
+  const int k0 = layout_.k0, k1 = layout_.k1, n = static_cast<int>(layout_.sz);
+  const bool has_below = k0<kw, has_above = k1> kw;
+  auto x = [&](int k) { return lines.x + layout_.plane(k); };
+  auto gamma = [&](int k) { return gamma_field_.data() + layout_.plane(k); };
+  if (has_below) {
+    if (!slab_.atBottom()) {
+      slab_.receiveFromBelow(x(k0 - 1), n);
+      slab_.receiveFromBelow(gamma(k0 - 1), n);
+    }
+    eliminate(c, wall_change, lines, rows, 0);
+    if (k1 < kw) {
+      slab_.sendUp(x(k1 - 1), n);
+      slab_.sendUp(gamma(k1 - 1), n);
+    }
+  }
+  if (has_above) {
+    if (!slab_.atTop()) {
+      slab_.receiveFromAbove(x(k1), n);
+      slab_.receiveFromAbove(gamma(k1), n);
+    }
+    eliminate(c, wall_change, lines, rows, 1);
+    if (k0 > kw) {
+      slab_.sendDown(x(k0), n);
+      slab_.sendDown(gamma(k0), n);
+    }
+  }
+  if (k1 == kw) {
+    slab_.exchangeAbove(x(kw - 1), x(kw), n);
+    slab_.exchangeAbove(gamma(kw - 1), gamma(kw), n);
+  } else if (k0 == kw) {
+    slab_.exchangeBelow(x(kw), x(kw - 1), n);
+    slab_.exchangeBelow(gamma(kw), gamma(kw - 1), n);
+  }
+  if (k0 <= kw && k1 >= kw) {
+    join(lines, rows);
+  }
+  if (has_below) {
+    if (k1 < kw) slab_.receiveFromAbove(x(k1), n);
+    substitute(lines, rows, 0);
+    if (!slab_.atBottom()) slab_.sendDown(x(k0), n);
+  }
+  if (has_above) {
+    if (k0 > kw) slab_.receiveFromBelow(x(k0 - 1), n);
+    substitute(lines, rows, 1);
+    if (!slab_.atTop()) slab_.sendUp(x(k1 - 1), n);
+  }
+  addLevel(lines, vn, rows);
+}
+
+}  // namespace monarch_flight

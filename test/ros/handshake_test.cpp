@@ -1,0 +1,91 @@
+// Who may fly with whom: the handshake of the lockstep protocol, over a real master.
+#include "ros/lockstep_fixture.h"
+
+namespace monarch_flight {
+namespace {
+
+TEST_F(Lockstep, DifferentCasesAreRefusedOnBothSides) {
+  LockstepIdentity other = fluid;
+  other.case_name = "hinge";
+  other.case_sha256 = std::string(64, 'b');
+  startServer(other);
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  try {
+    client->connect();
+    FAIL() << "the client agreed";
+  } catch (const ExchangeError& e) {
+    const std::string what = e.what();
+    EXPECT_NE(std::string::npos, what.find("the fluid node")) << what;
+    EXPECT_NE(std::string::npos, what.find("hinge (sha256 bbbbbbbbbbbb)")) << what;
+    EXPECT_NE(std::string::npos, what.find("climb (sha256 aaaaaaaaaaaa)")) << what;
+  }
+  joinServer();
+  EXPECT_NE(std::string::npos, server_end.find("handshake refused")) << server_end;
+  EXPECT_NE(std::string::npos, server_end.find("climb (sha256 aaaaaaaaaaaa)")) << server_end;
+  EXPECT_EQ(0, solver.computed);
+}
+
+TEST_F(Lockstep, AnotherProtocolVersionIsRefused) {
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  Hello hello = makeHello(fluid, run.id);
+  hello.protocol = 99;
+  ros::Publisher raw = node.advertise<Hello>("fluid/hello", 8, true);
+  raw.publish(hello);
+  try {
+    client->connect();
+    FAIL() << "the client agreed";
+  } catch (const ExchangeError& e) {
+    EXPECT_NE(std::string::npos, std::string(e.what()).find("protocol version 1 here, 99 in"));
+  }
+  Hello old = makeHello(fluid, 1);
+  old.role = "wing";
+  EXPECT_NE(std::string::npos, disagreement(fluid, old).find("role fluid here, wing in"));
+  EXPECT_EQ("", disagreement(fluid, makeHello(fluid, 1)));
+}
+
+TEST_F(Lockstep, AnAnswerToAnotherRunIsNoHandshake) {
+  run.limits.connect_s = 0.5;
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  ros::Publisher raw = node.advertise<Hello>("fluid/hello", 8, true);
+  raw.publish(makeHello(fluid, run.id + 1));
+  EXPECT_THROW(client->connect(), ExchangeError);
+  EXPECT_EQ(1u, client->counters().foreign);
+}
+
+TEST_F(Lockstep, AMissingParticipantIsNamed) {
+  run.limits.connect_s = 0.5;
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  try {
+    client->connect();
+    FAIL() << "connected to nobody";
+  } catch (const ExchangeError& e) {
+    EXPECT_NE(std::string::npos, std::string(e.what()).find(
+                                     "the fluid node did not answer the handshake within 0.5 s"));
+  }
+}
+
+TEST_F(Lockstep, AMissingCoordinatorIsNoticed) {
+  server_limits.connect_s = 0.5;
+  startServer(fluid);
+  joinServer();
+  EXPECT_NE(std::string::npos, server_end.find("no coordinator appeared within 0.5 s"));
+}
+
+TEST(Limits, FollowFromTheWatchdog) {
+  const LockstepLimits limits = limitsFor(60.0);
+  EXPECT_EQ(60.0, limits.exchange_s);
+  EXPECT_EQ(60.0, limits.connect_s);
+  EXPECT_EQ(600.0, limits.start_s);
+  EXPECT_EQ(180.0, limits.silence_s);
+  EXPECT_EQ(30.0, limitsFor(2.0).connect_s);
+}
+
+}  // namespace
+}  // namespace monarch_flight
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "handshake_test");
+  ros::NodeHandle keep;
+  return RUN_ALL_TESTS();
+}
