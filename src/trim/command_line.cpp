@@ -162,8 +162,9 @@ TrimCommand trimCommand(const std::vector<std::string>& given) {
   newton.central = quick;
   newton.broyden = !quick;
   if (!quick) {
-    newton.max_step = 2.0;
+    newton.max_step = 0.8;
     newton.max_halvings = 4;
+    newton.damping = 1.0;
     newton.step_tolerance = 0.05;
   }
   command.jacobian_file = arguments.text("jacobian");

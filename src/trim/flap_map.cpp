@@ -134,7 +134,6 @@ Flight FlapMap::fly(const TrimPoint& point, int flaps) const {
 
 std::string FlapMap::caseText(const TrimPoint& point, int run_in_steps, int flaps) const {
   const double f = 1.0 / base_.time.period, t0 = base_.time.t_start;
-  const double release = t0 + run_in_steps * base_.time.dt;
   const FlapState& s = point.state;
   CaseEdit edit(base_.resolved_yaml);
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -143,20 +142,20 @@ std::string FlapMap::caseText(const TrimPoint& point, int run_in_steps, int flap
   Eigen::Vector3d velocity = base_.motion->at(t0).body.v;
   if (base_.free.x) {
     edit.setSeries({"motion", "body", "sway_x"}, point.shape.x, 1.0);
-    velocity.x() = s(0) - rateAt(point.shape.x, f, release);
+    velocity.x() = s(0) - rateAt(point.shape.x, f, t0);
   }
   if (base_.free.z) {
     edit.setSeries({"motion", "body", "sway_z"}, point.shape.z, 1.0);
-    velocity.z() = s(1) - rateAt(point.shape.z, f, release);
+    velocity.z() = s(1) - rateAt(point.shape.z, f, t0);
   }
   edit.setVector({"motion", "body", "velocity"}, velocity);
   constexpr double kDegrees = 180.0 / M_PI;
   if (base_.free.pitch) {
-    edit.setSeries({"motion", "theta_B_deg"}, through(point.shape.theta_B, f, release, s(2), s(3)),
+    edit.setSeries({"motion", "theta_B_deg"}, through(point.shape.theta_B, f, t0, s(2), s(3)),
                    kDegrees);
   }
   if (base_.free.wing_pitch) {
-    edit.setSeries({"motion", "theta_R_deg"}, through(point.shape.theta_R, f, release, s(4), s(5)),
+    edit.setSeries({"motion", "theta_R_deg"}, through(point.shape.theta_R, f, t0, s(4), s(5)),
                    kDegrees);
   }
   edit.remove({"initial"});

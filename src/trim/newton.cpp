@@ -14,7 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kDamping = 1e-4;  // of the parameters, relative to the targets' weight
 
 constexpr double kNear = 0.3;      // periodicity within which the targets lead
 
@@ -43,9 +42,9 @@ std::vector<std::optional<TrimResidual>> evaluateAll(const TrimFunction& f,
   return results;
 }
 
-/// Least squares of |a + A p| with p within bounds: unknowns that leave them are held there.
-VectorXd boundedLeastSquares(const MatrixXd& A, const VectorXd& a, const VectorXd& low,
-                             const VectorXd& high) {
+/// Least squares of |a + A p|^2 + damping |p|^2 with p within bounds: unknowns that leave them are held there.
+VectorXd boundedLeastSquares(const MatrixXd& A, const VectorXd& a, double damping,
+                             const VectorXd& low, const VectorXd& high) {
   const Index q = A.cols();
   VectorXd p = VectorXd::Zero(q);
   std::vector<bool> held(static_cast<std::size_t>(q), false);
@@ -64,7 +63,7 @@ VectorXd boundedLeastSquares(const MatrixXd& A, const VectorXd& a, const VectorX
     }
     for (Index k = 0; k < count; ++k) {
       M.col(k).head(A.rows()) = A.col(open[static_cast<std::size_t>(k)]);
-      M(A.rows() + k, k) = std::sqrt(kDamping);
+      M(A.rows() + k, k) = std::sqrt(damping);
     }
     const VectorXd solution = M.colPivHouseholderQr().solve(rhs);
     bool changed = false;
@@ -172,7 +171,8 @@ VectorXd trimStep(const MatrixXd& jacobian, const TrimResidual& residual, const 
   if (m > 0) {
     const auto C = jacobian.bottomLeftCorner(m, n);
     p = boundedLeastSquares(jacobian.bottomRightCorner(m, q) + C * along, residual.targets + C * s0,
-                            settings.lower - unknowns.tail(q), settings.upper - unknowns.tail(q));
+                            settings.damping, settings.lower - unknowns.tail(q),
+                            settings.upper - unknowns.tail(q));
   }
   step << s0 + along * p, p;
   return step;

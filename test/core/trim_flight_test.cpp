@@ -108,6 +108,11 @@ TEST_F(Trim, ResultIsACaseThatFliesTheSameFlight) {
   EXPECT_NEAR(release.body.pitch.qd, r.point.state(3), 1e-9);
   EXPECT_NEAR(release.angles.theta.q, r.point.state(4), 1e-12);
   EXPECT_NEAR(release.angles.theta.qd, r.point.state(5), 1e-9);
+  // A release within the flap is on the same flight.
+  const Case early = caseFromText(trimmedCase(map, options, r, 10, 2), "early", {}, CONFIG_DIR);
+  double mean = 0.0;
+  for (int k = 0; k < 200; ++k) mean += early.motion->at(early.time.time(k)).body.pitch.q / 200.0;
+  EXPECT_NEAR(mean, r.flap.theta_B_mean, 1e-3);
   const FlapMap with_run_in(c, CONFIG_DIR, {}, 1);
   const Flight flight = with_run_in.fly(r.point, 2);
   ASSERT_TRUE(flight.complete) << flight.failure;

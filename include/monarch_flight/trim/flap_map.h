@@ -80,7 +80,8 @@ class FlapMap {
   /// `flaps` free flaps from a point. Thread-safe.
   Flight fly(const TrimPoint& point, int flaps) const;
   /// Text of the case that flies `flaps` free flaps from a point, behind a run-in of `run_in_steps`
-  /// steps in which the point's periodic flight is prescribed.
+  /// steps in which the point's periodic flight is prescribed. That flight has the point's state
+  /// at t_start, and so at a release after whole flaps.
   std::string caseText(const TrimPoint& point, int run_in_steps, int flaps) const;
 
  private:

@@ -25,6 +25,7 @@ struct NewtonSettings {
   int max_iterations = 30;
   double max_step = 2.0;        ///< largest change of an unknown in one iteration
   int max_halvings = 6;         ///< of a step that does not reduce the residual
+  double damping = 1e-4;        ///< of a step of the parameters (Levenberg's), targets count 1
   double difference = 1e-3;     ///< step of the finite differences
   bool central = true;          ///< central differences, else forward
   bool broyden = false;         ///< one Jacobian by differences, rank-one updates after it
