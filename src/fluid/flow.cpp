@@ -25,6 +25,13 @@ void sumLoads(const Slab& slab, Loads& loads) {
   loads = {m.col(0), m.col(1), m.col(2), m.col(3)};
 }
 
+Eigen::Isometry3d placeOf(const WingMotion& motion) {
+  Eigen::Isometry3d place;
+  place.linear() = motion.R_IW;
+  place.translation() = motion.r_I;
+  return place;
+}
+
 }  // namespace
 
 NavierStokes::NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit,
@@ -43,6 +50,7 @@ NavierStokes::NavierStokes(Grid grid, const Air& air, double reference_length, d
       convecting_(layout_),
       v_star_(layout_) {
   const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(layout_.nx) * layout_.ny;
+  row_.assign(layout_.nx, 0.0);
   phi_start_ = (plane + 7) / 8 * 8;
   phi_.assign(phi_start_ + plane * slab_.planes(), 0.0);
   added_mass_ = computeAddedMass();
@@ -78,11 +86,15 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   level_n_.frame = motion.R_IW;
   level_n_.grid = gridVelocity(motion, air_.wind_I);
   level_n_.wall = wallVelocity(level_n_.grid);
+  level_n_.place = placeOf(motion);
+  known_ = nullptr;
   level_m_ = level_n_;
   // Level -1 by the motion's own rates, so that the first extrapolation is of second order too.
   const Eigen::Vector3d V_dot = motion.a_W - motion.omega_W.cross(level_n_.grid.V);
   level_m_.grid.V -= dt * V_dot;
   level_m_.grid.omega -= dt * motion.alpha_W;
+  level_m_.place.linear() = level_n_.frame * expSO3(-dt * motion.omega_W);
+  level_m_.place.translation() -= dt * (level_n_.frame * level_n_.grid.V);
   potentialStart();
   vm_ = vn_;
 }
@@ -104,19 +116,38 @@ void NavierStokes::fillPhiHalo() {
   if (!slab_.atBottom()) slab_.receiveFromBelow(phi() - plane, plane);
 }
 
-void NavierStokes::setUniformStream(const Eigen::Vector3d& u_I) {
-  stream_I_ = u_I;
-  const Eigen::Vector3d u = level_n_.frame.transpose() * u_I;
-  for (int c = 0; c < 3; ++c) {
-    std::fill(vn_.c[c].begin(), vn_.c[c].end(), u[c]);
-    std::fill(vm_.c[c].begin(), vm_.c[c].end(), u[c]);
+void NavierStokes::setKnownFlow(KnownFlow flow) {
+  known_ = std::move(flow);
+  for (Velocity* v : {&vn_, &vm_}) {
+    const bool now = v == &vn_;
+    const Eigen::Isometry3d& place = now ? level_n_.place : level_m_.place;
+    for (int c = 0; c < 3; ++c) {
+      for (int k = layout_.k0 - 1; k <= layout_.k1; ++k) {
+        for (int j = -1; j <= layout_.ny; ++j) {
+          for (int i = -1; i <= layout_.nx; ++i) {
+            const Eigen::Vector3d r_I = place * pointOf(grid_, c, i, j, k);
+            v->c[c][layout_.at(i, j, k)] = level_n_.frame.col(c).dot(known_(r_I, now ? 0 : -dt_));
+          }
+        }
+      }
+    }
   }
 }
 
-/// Air at rest on a closed boundary is what the fields were made with: nothing writes there.
-void NavierStokes::fillOuterFaces(const Eigen::Matrix3d& frame, Velocity& v) const {
-  if (!grid_.open && stream_I_.isZero(0)) return;
-  fillOuter(grid_, layout_, frame.transpose() * stream_I_, v);
+/// Outer faces and ghosts of a field resolved in `frame`, of a grid at `place` at time t.
+void NavierStokes::fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isometry3d& place,
+                                double t, Velocity& v) const {
+  if (!known_ && !grid_.open) return;  // air at rest: what the fields were made with
+  if (grid_.open) {
+    fillOuter(grid_, layout_, v);
+    return;
+  }
+  fillOuter(
+      grid_, layout_,
+      [&](const Eigen::Vector3d& r) -> Eigen::Vector3d {
+        return frame.transpose() * known_(place * r, t);
+      },
+      v);
 }
 
 void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame) {
@@ -125,7 +156,7 @@ void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& f
   std::swap(v, v_star_);
   level.frame = frame;
   level.wall = rotated(level.wall, Q);
-  fillOuterFaces(frame, v);
+  fillFarField(frame, predicted_place_, (steps_ + 1) * dt_, v);  // the increment there is 0
   fillWing(grid_, layout_, level.wall, v);
   fillHalo(layout_, slab_, v);
 }
@@ -181,6 +212,10 @@ void NavierStokes::prepareStep() {
   if (!prepared_) {
     const Eigen::Vector3d omega_mid = 1.5 * n.omega - 0.5 * m.omega;
     predicted_frame_ = level_n_.frame * expSO3(dt_ * omega_mid);
+    predicted_place_.linear() = predicted_frame_;
+    predicted_place_.translation() =
+        level_n_.place.translation() +
+        dt_ * (1.5 * level_n_.place.linear() * n.V - 0.5 * level_m_.place.linear() * m.V);
     turnLevel(vn_, level_n_, predicted_frame_);
     turnLevel(vm_, level_m_, predicted_frame_);
     prepared_ = true;
@@ -205,9 +240,10 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   next_.frame = next.R_IW;
   next_.grid = gridVelocity(next, air_.wind_I);
   next_.wall = wallVelocity(next_.grid);
+  next_.place = placeOf(next);
   momentum_.finish(vn_, convecting_, combined(1, next_.wall, -1, level_n_.wall, 0, next_.wall),
                    v_star_);
-  fillOuterFaces(predicted_frame_, v_star_);
+  fillFarField(predicted_frame_, next_.place, (steps_ + 1) * dt_, v_star_);
   fillWing(grid_, layout_, next_.wall, v_star_);
 
   fillHalo(layout_, slab_, v_star_.c[2]);
@@ -224,6 +260,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
                 acceleration_, loads);
   frictionLoads(grid_, layout_, momentum_, v_star_, phi(), step_.a / air_.rho, next_.wall, air_.mu,
                 loads);
+  rimLoads(grid_, layout_, momentum_, convecting_, v_star_, air_.rho / step_.a, row_.data(), loads);
   sumLoads(slab_, loads);
   if (!loads.finite()) throw NumericalError("Navier-Stokes: the loads are not finite");
   evaluated_ = true;

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 
 #include "fluid/field.h"
@@ -9,12 +10,17 @@
 
 namespace monarch_flight {
 
+/// A flow known everywhere: velocity relative to the wind, inertial axes, at the place r_I and the
+/// time t since the start.
+using KnownFlow = std::function<Eigen::Vector3d(const Eigen::Vector3d& r_I, double t)>;
+
 /// One stored time level: the field's axes, the grid's velocity and the wall's, in those axes.
 struct Level {
   Eigen::Matrix3d frame =
       Eigen::Matrix3d::Identity();  ///< takes the field's components to inertial ones
   GridVelocity grid;                ///< of the grid at that time, in its own axes then
   WallVelocity wall;                ///< resolved in `frame`
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();  ///< of the grid then (known flows)
 };
 
 /// Incompressible flow on a grid that is fixed to the wing. Unknown: the absolute velocity
@@ -40,18 +46,20 @@ class NavierStokes : public FluidModel {
   const Layout& layout() const { return layout_; }
   const Slab& slab() const { return slab_; }
   const Velocity& velocity() const { return vn_; }  ///< committed level n
-  /// Replaces the field at rest by a uniform stream `u_I` (inertial axes), at the outer boundary
-  /// too.
-  void setUniformStream(const Eigen::Vector3d& u_I);
+  const Array& pressure() const { return p_; }      ///< committed, cell (i, j, k) at face (i, j, k)
+  /// Replaces the air at rest by a known flow: levels 0 and -1 and, from then on, the values on a
+  /// closed outer boundary. For verification: it is not part of the saved state. After start().
+  void setKnownFlow(KnownFlow flow);
 
  private:
   void prepareStep();
-  void fillOuterFaces(const Eigen::Matrix3d& frame, Velocity& v) const;
   void turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame);
   void convectingField(const GridVelocity& grid_velocity);
   double courant() const;
   Matrix6d computeAddedMass();
   void potentialStart();
+  void fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isometry3d& place, double t,
+                    Velocity& v) const;
 
   double* phi() { return phi_.data() + phi_start_; }  ///< of this process's first cell
   void fillPhiHalo();
@@ -72,14 +80,16 @@ class NavierStokes : public FluidModel {
   Level level_n_, level_m_;  ///< n and n-1
   Velocity vn_, vm_;
   Array p_;
-  Eigen::Vector3d stream_I_ = Eigen::Vector3d::Zero();
+  KnownFlow known_;  ///< empty: air at rest
 
   // of the step being computed
   MomentumStep step_{};
   Velocity convecting_, v_star_;
   Array phi_;  ///< one plane of the process below, then this process's cells
   std::ptrdiff_t phi_start_;
+  Array row_;  ///< scratch of the loads
   Eigen::Matrix3d predicted_frame_;
+  Eigen::Isometry3d predicted_place_ = Eigen::Isometry3d::Identity();
   Level next_;
   WallVelocity acceleration_;
   bool evaluated_ = false;

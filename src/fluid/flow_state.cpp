@@ -80,7 +80,6 @@ std::vector<char> NavierStokes::save() const {
   exchangeLevel(w, level_n_);
   exchangeLevel(w, level_m_);
   for (int i = 0; i < 9; ++i) w(predicted_frame_.data()[i]);
-  for (int i = 0; i < 3; ++i) w(stream_I_[i]);
   for (int c = 0; c < 3; ++c) w(vn_.c[c]), w(vm_.c[c]);
   w(p_);
   const long size = static_cast<long>(mine.size());
@@ -121,7 +120,6 @@ void NavierStokes::restore(const std::vector<char>& bytes) {
   exchangeLevel(r, level_n_);
   exchangeLevel(r, level_m_);
   for (int i = 0; i < 9; ++i) r(predicted_frame_.data()[i]);
-  for (int i = 0; i < 3; ++i) r(stream_I_[i]);
   for (int c = 0; c < 3; ++c) r(vn_.c[c]), r(vm_.c[c]);
   r(p_);
   for (Array& a : v_star_.c) std::fill(a.begin(), a.end(), 0.0);

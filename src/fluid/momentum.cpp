@@ -215,6 +215,30 @@ void Momentum::finish(const Velocity& vn, const Velocity& c, const WallVelocity&
   for (int component = 0; component < 3; ++component) sweepZ(c, wall_change, component, vn, v_star);
 }
 
+void Momentum::normalTransport(const Velocity& c, const Velocity& v_star, int j, double* out) {
+  const int kw = grid_.k_wing;
+  const double* __restrict w = v_star.c[2].data() + layout_.at(0, j, kw);
+  std::fill(out, out + layout_.nx, 0.0);
+  for (int direction = 0; direction < 3; ++direction) {
+    double* lo = lower_.data();
+    double* up = upper_.data();
+    double iw = 1;
+    if (direction == 0) {
+      coefficientsX(c, 2, j, kw, {lo, up});
+    } else {
+      iw = metric_[2][direction].inverse_width[direction == 1 ? j : kw];
+      rowFaces(c, 2, direction, j, kw, lo, up);
+      for (int i = 0; i < layout_.nx; ++i) lo[i] = -lo[i];
+      rowFaces(c, 2, direction, j + (direction == 1), kw + (direction == 2), next_.data(), up);
+    }
+    const std::ptrdiff_t s = layout_.stride(direction);
+    for (int i = 0; i < layout_.nx; ++i) {
+      if (grid_.isWing(i, j))
+        out[i] += iw * (lo[i] * (w[i - s] - w[i]) + up[i] * (w[i + s] - w[i]));
+    }
+  }
+}
+
 /// Where the wing lies between two points each of them sees the wall at half a cell instead.
 void Momentum::cutAtWing(int component, int j, int k, double* __restrict off,
                          double* __restrict diagonal) const {

@@ -39,6 +39,10 @@ class Momentum {
   void finish(const Velocity& vn, const Velocity& c, const WallVelocity& wall_change,
               Velocity& v_star);
 
+  /// a A v of the normal component on the wing's faces of row j, `out` of nx; v* and the convecting
+  /// field with their neighbouring planes. On the process that owns the plane k_wing.
+  void normalTransport(const Velocity& c, const Velocity& v_star, int j, double* out);
+
   /// Share (0, 1/2, 1) of the z-face below the point (i, j, k_wing) of component u, v or w that is
   /// wing.
   double blocked(int component, int i, int j) const {

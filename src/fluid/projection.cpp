@@ -70,8 +70,8 @@ void subtractGradient(const Grid& grid, const Layout& l, const double* phi, doub
 
 namespace {
 
-/// Calls f(outer point, inner point) for the outer faces or ghosts of component c, direction d, on
-/// the planes of this process and on its neighbouring planes.
+/// Calls f(outer point, inner point, indices of the outer point) for the outer faces or ghosts of
+/// component c, direction d, on the planes of this process and on its neighbouring planes.
 template <class F>
 void forOuter(const Layout& l, int c, int d, F f) {
   const int lo[3] = {-1, -1, l.k0 - 1}, hi[3] = {l.nx, l.ny, l.k1};
@@ -84,25 +84,52 @@ void forOuter(const Layout& l, int c, int d, F f) {
     for (q[e] = lo[e]; q[e] <= hi[e]; ++q[e]) {
       q[d] = low;
       const std::ptrdiff_t a = has_low ? l.at(q[0], q[1], q[2]) : 0;
-      if (has_low) f(a, a + s);
+      if (has_low) f(a, a + s, q);
       q[d] = high;
       const std::ptrdiff_t b = has_high ? l.at(q[0], q[1], q[2]) : 0;
-      if (has_high) f(b, b - s);
+      if (has_high) f(b, b - s, q);
     }
   }
 }
 
 }  // namespace
 
-void fillOuter(const Grid& grid, const Layout& l, const Eigen::Vector3d& far, Velocity& v) {
+void fillOuter(const Grid& grid, const Layout& l, Velocity& v) {
   for (int c = 0; c < 3; ++c) {
     double* a = v.c[c].data();
     for (int d = 0; d < 3; ++d) {
       if (grid.open) {
-        forOuter(l, c, d, [a](std::ptrdiff_t outer, std::ptrdiff_t inner) { a[outer] = a[inner]; });
+        forOuter(l, c, d, [a](std::ptrdiff_t outer, std::ptrdiff_t inner, const int*) {
+          a[outer] = a[inner];
+        });
       } else {
-        forOuter(l, c, d, [a, u = far[c]](std::ptrdiff_t outer, std::ptrdiff_t) { a[outer] = u; });
+        forOuter(l, c, d, [a](std::ptrdiff_t outer, std::ptrdiff_t, const int*) { a[outer] = 0; });
       }
+    }
+  }
+}
+
+Eigen::Vector3d pointOf(const Grid& grid, int component, int i, int j, int k) {
+  const Axis* axes[3] = {&grid.x, &grid.y, &grid.z};
+  const int q[3] = {i, j, k};
+  Eigen::Vector3d r;
+  for (int d = 0; d < 3; ++d) {
+    const Axis& a = *axes[d];
+    r[d] = d == component  ? a.face[std::min(std::max(q[d], 0), a.n())]
+           : q[d] < 0      ? a.face.front()
+           : q[d] >= a.n() ? a.face.back()
+                           : a.centre[q[d]];
+  }
+  return r;
+}
+
+void fillOuter(const Grid& grid, const Layout& l,
+               const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& field, Velocity& v) {
+  for (int c = 0; c < 3; ++c) {
+    for (int d = 0; d < 3; ++d) {
+      forOuter(l, c, d, [&](std::ptrdiff_t outer, std::ptrdiff_t, const int* q) {
+        v.c[c][outer] = field(pointOf(grid, c, q[0], q[1], q[2]))[c];
+      });
     }
   }
 }

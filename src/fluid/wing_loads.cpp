@@ -60,4 +60,25 @@ void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, 
   loads.moment_friction = {0, 0, mz};
 }
 
+void rimLoads(const Grid& grid, const Layout& l, Momentum& momentum, const Velocity& convecting,
+              const Velocity& v_star, double rho_by_a, double* row, Loads& loads) {
+  if (grid.k_wing < l.k0 || grid.k_wing >= l.k1) return;
+  double f = 0, mx = 0, my = 0;
+  for (int j = 0; j < l.ny; ++j) {
+    const std::uint8_t* wing = grid.wing.data() + static_cast<std::size_t>(j) * l.nx;
+    if (std::find(wing, wing + l.nx, 1) == wing + l.nx) continue;
+    momentum.normalTransport(convecting, v_star, j, row);
+    const double side = rho_by_a * grid.z.gap[grid.k_wing] * grid.y.width[j];
+    for (int i = 0; i < l.nx; ++i) {
+      const double df = -side * grid.x.width[i] * row[i];
+      f += df;
+      mx += grid.y.centre[j] * df;
+      my -= grid.x.centre[i] * df;
+    }
+  }
+  loads.force_friction.z() += f;
+  loads.moment_friction.x() += mx;
+  loads.moment_friction.y() += my;
+}
+
 }  // namespace monarch_flight

@@ -44,5 +44,10 @@ void pressureLoads(const Grid& grid, const Layout& l, const WingPressure& p, dou
 void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, const Velocity& v,
                    const double* phi, double scale, const WallVelocity& wall, double mu,
                    Loads& loads);
+/// Adds to the friction what the air on the wing's own faces (half a cell on both sides) takes from
+/// its neighbours by normal stress and convection: next to nothing inside the outline, but not at
+/// the rim. With it the loads are what the air around the wing loses. `row` is scratch of nx.
+void rimLoads(const Grid& grid, const Layout& l, Momentum& momentum, const Velocity& convecting,
+              const Velocity& v_star, double rho_by_a, double* row, Loads& loads);
 
 }  // namespace monarch_flight

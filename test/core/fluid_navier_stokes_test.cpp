@@ -94,7 +94,7 @@ TEST(NavierStokes, UniformStreamSurvivesAFullTurn) {
   };
   const Vector3d stream(0.3, -0.7, 1.1);
   flow.start(motion(0), dt);
-  flow.setUniformStream(stream);
+  flow.setKnownFlow([&](const Vector3d&, double) { return stream; });
   for (int n = 1; n <= steps; ++n) {
     flow.evaluate(motion(n));
     flow.commit();

@@ -1,0 +1,110 @@
+// Rectangle of aspect ratio 2 at Reynolds number 100 against an experiment and another code.
+#include <fstream>
+#include <sstream>
+
+#include "monarch_flight/math/errors.h"
+#include "verify/setup.h"
+#include "verify/subjects.h"
+
+namespace monarch_flight::verify {
+namespace {
+
+/// Linear interpolation in a table of angle [deg] and coefficient; NaN outside it.
+double measured(const char* file, double angle) {
+  std::ifstream in(std::string(VERIFY_DATA_DIR "/") + file);
+  if (!in) throw InputError(std::string("cannot read ") + VERIFY_DATA_DIR "/" + file);
+  double x0 = NAN, y0 = NAN;
+  for (std::string line; std::getline(in, line);) {
+    double x, y;
+    if (line[0] == '#' || !(std::istringstream(line) >> x >> y)) continue;
+    if (x >= angle && x0 <= angle) return y0 + (y - y0) * (angle - x0) / (x - x0);
+    x0 = x;
+    y0 = y;
+  }
+  return angle - x0 < 1 ? y0 : NAN;
+}
+
+struct Coefficients {
+  double lift, drag, drift;  ///< drift: change of drag over the last two chords of travel
+};
+
+Coefficients steady(double degrees, double cells_per_chord, double far_field) {
+  GridSettings s = GridSettings::preset("preview");
+  s.level = "custom";
+  s.first_cell *= s.cells_per_chord / cells_per_chord;
+  s.growth_plane = s.growth_normal = 1 + (s.growth_plane - 1) * 16 / cells_per_chord;
+  s.cells_per_chord = cells_per_chord;
+  s.far_field = far_field;
+  s.courant_limit = kNoCourantLimit;
+  const auto flow = makeNavierStokes(Planform::rectangle(1, 2, 0.5, -1), airOf(1, 0.01), s);
+  const double angle = degrees * M_PI / 180;
+  auto motion = [&](double t) {
+    WingMotion m;  // moves to the north, leading edge up
+    m.R_IW = rotationY(angle);
+    m.r_I = Vector3d(t, 0, 0);
+    m.v_W = m.R_IW.transpose() * Vector3d(1, 0, 0);
+    return m;
+  };
+  const double dt = 0.32 / cells_per_chord;
+  const int steps = static_cast<int>(std::lround(13 / dt)), window = static_cast<int>(2 / dt);
+  const auto loads = fly(*flow, motion, dt, steps);
+  auto mean = [&](int end) {
+    Vector3d sum = Vector3d::Zero();
+    for (int n = end - window / 2; n < end; ++n) sum += rotationY(angle) * loads[n].force();
+    return Vector3d(sum / (window / 2));
+  };
+  const Vector3d F = mean(steps), before = mean(steps - window / 2);
+  return {-F.z(), -F.x(), std::abs(F.x() / before.x() - 1)};  // 1/2 rho U^2 S = 1
+}
+
+void compare(Report& report, double degrees, const std::string& resolution, const Coefficients& c) {
+  const double cl = measured("flat_plate_ar2_re100_cl_vs_alpha.dat", degrees);
+  const double cd = measured("flat_plate_ar2_re100_cd_vs_alpha.dat", degrees);
+  const std::string at = text("%g deg: ", degrees);
+  if (degrees < 89) report.near(at + "CL, experiment", resolution, c.lift, cl, 0.1);
+  if (degrees > 89) report.near(at + "CL, experiment (of CD)", resolution, c.lift, cl, 0.1, cd);
+  report.near(at + "CD, experiment", resolution, c.drag, cd, 0.1);
+  if (degrees == 30) {
+    report.near(at + "CL, PetIBM", resolution, c.lift, 0.706, 0.1);
+    report.near(at + "CD, PetIBM", resolution, c.drag, 0.739, 0.1);
+  }
+}
+
+}  // namespace
+
+void plateRe100(Report& report) {
+  const double cells[3] = {12, 16, 22}, h[3] = {1 / 12.0, 1 / 16.0, 1 / 22.0};
+  double lift[3], drag[3];
+  for (int i = 0; i < 3; ++i) {
+    const Coefficients c = steady(30, cells[i], 10);
+    const std::string resolution = text("%g cells a chord, box 10", cells[i]);
+    compare(report, 30, resolution, c);
+    report.state("30 deg: drift over a chord", resolution, c.drift, 0);
+    lift[i] = c.lift;
+    drag[i] = c.drag;
+  }
+  const Extrapolated l = extrapolate(h, lift), d = extrapolate(h, drag);
+  report.state("30 deg: CL against extrapolated", "22 cells a chord", lift[2], l.value);
+  report.state("30 deg: CD against extrapolated", "22 cells a chord", drag[2], d.value);
+  report.state("30 deg: order of CL, of CD", "12, 16, 22 cells", l.order, d.order);
+  for (double far : {6.0, 16.0}) {
+    const Coefficients c = steady(30, 16, far);
+    report.state("30 deg: CL against box 10", text("16 cells a chord, box %g", far), c.lift,
+                 lift[1]);
+    report.state("30 deg: CD against box 10", text("16 cells a chord, box %g", far), c.drag,
+                 drag[1]);
+  }
+  for (double degrees : {60.0, 90.0}) {
+    for (int i = 0; i < 2; ++i) {
+      compare(report, degrees, text("%g cells a chord, box 10", cells[i]),
+              steady(degrees, cells[i], 10));
+    }
+  }
+  const std::vector<double> spacing(h, h + 3);
+  report.curve({"plate_re100", "spacing [chords]", "coefficient", "CL", spacing,
+                std::vector<double>(lift, lift + 3), false});
+  report.curve({"plate_re100", "spacing [chords]", "coefficient", "CD", spacing,
+                std::vector<double>(drag, drag + 3), false});
+}
+
+}  // namespace monarch_flight::verify
