@@ -31,8 +31,7 @@ const std::string& FlightTable::header() {
   static const std::string names =
       "t,x,y,z,vx,vy,vz,ax,ay,az,theta_B,theta_B_dot,theta_B_ddot,qw,qx,qy,qz,"
       "phi,psi,theta_R,theta_R_dot,theta_R_ddot,theta_A,fx,fy,fz,mx,my,mz,"
-      "fx_p,fy_p,fz_p,mx_p,my_p,mz_p,FX,FY,FZ,sub_iterations,courant,"
-      "fluid_evaluations,added_mass_ratio,work_fluid,work_structure";
+      "fx_p,fy_p,fz_p,mx_p,my_p,mz_p,FX,FY,FZ,sub_iterations,courant";
   return names;
 }
 
@@ -62,10 +61,6 @@ void FlightTable::append(const CommittedStep& step) {
   put(row_, step.force_I);
   putInteger(row_, step.iterations.size());
   put(row_, step.fluid.courant);
-  putInteger(row_, static_cast<unsigned long>(step.fluid_evaluations));
-  put(row_, step.added_mass_ratio);
-  put(row_, step.work_fluid);
-  put(row_, step.work_structure);
   endRow(row_);
   file_.write(row_);
 }
