@@ -89,7 +89,8 @@ class WrongInput(flying.FlightTest):
         first.send_signal(signal.SIGINT)
         code, output = self.finish(first, 60)
         self.assertEqual(code, 130, output)
-        self.assertIn("interrupted", flying.summary(self.out("first"))["failure"])
+        # roslaunch interrupts its nodes one after the other: the coordinator may see a solver go first.
+        self.assertRegex(flying.summary(self.out("first"))["failure"], "interrupted|is lost")
 
 
 if __name__ == "__main__":
