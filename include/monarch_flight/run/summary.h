@@ -52,6 +52,7 @@ class Summary {
   double exchange_ = 0.0;
   long cells_ = 0;
   Matrix6d added_mass_ = Matrix6d::Zero();
+  IgnoredMessages ignored_;
   StateHash hash_;
 };
 
