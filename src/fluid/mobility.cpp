@@ -6,19 +6,28 @@
 #include "monarch_flight/fluid/grid.h"
 
 namespace monarch_flight {
+namespace {
+
+/// The faces farther from the rim miss a little of the gradient, too. The nearest ones make up for
+/// it: by this factor the added mass of the two-dimensional plate, 24 to 96 cells wide, heaving or
+/// turning, is right to 0.1 % and 1.8 % (24 cells) and 0.1 % and 0.4 % (48), aspects 0.28 to 1.
+constexpr double kNeighbours = 1.08;
+
+}  // namespace
 
 // With the rim at the origin, the wing at x < 0 and cells of width 1: the centre of the first cell
 // outside is at (1/2, aspect/2), that of the last one on the wing at (-1/2, aspect/2).
 double Mobility::besideRim(double aspect) {
   const double r = 0.5 * std::hypot(1, aspect), theta = std::atan(aspect);
   const double quotient = std::sqrt(r) * std::sin(0.5 * theta) / (0.5 * aspect);
-  return 1 / quotient;  // mean of 1 / (2 sqrt(x)) over 0 < x < 1 is 1
+  return kNeighbours / quotient;  // mean of 1 / (2 sqrt(x)) over 0 < x < 1 is 1
 }
 
 double Mobility::acrossRim(double aspect) {
   const double r = 0.5 * std::hypot(1, aspect), theta = std::atan(aspect);
   const double quotient = std::sqrt(r) * (std::cos(0.5 * theta) - std::sin(0.5 * theta));
-  return 1 / std::sqrt(2 * aspect) / quotient;  // mean of 1 / (2 sqrt(2 z)) over 0 < z < aspect
+  return kNeighbours / std::sqrt(2 * aspect) /
+         quotient;  // mean of 1 / (2 sqrt(2 z)) over 0 < z < aspect
 }
 
 Mobility::Mobility(const Axis& x, const Axis& y, const Axis& z, int k_wing,
