@@ -39,10 +39,18 @@ int guarded(const std::string& name, const std::function<int()>& body) {
   }
 }
 
+// Nobody outside this machine can connect, unless the person has given the node an address.
+void bindToLoopback() {
+  if (std::getenv("ROS_IP") == nullptr && std::getenv("ROS_HOSTNAME") == nullptr) {
+    setenv("ROS_HOSTNAME", "localhost", 1);
+  }
+}
+
 int nodeMain(const std::string& name, int argc, char** argv, const std::function<int()>& body) {
   return guarded(name, [&] {
     // Namespace of the package unless the launcher gives another.
     if (std::getenv("ROS_NAMESPACE") == nullptr) setenv("ROS_NAMESPACE", kNamespace, 1);
+    bindToLoopback();
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     requireFreeMaster();
     const int code = body();
@@ -86,6 +94,7 @@ int inProcessMain(int argc, char** argv) {
   }
   return guarded("fly_in_process", [&] {
     const RunParameters parameters = runParameters(argc, argv);
+    if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
     requireProcesses(parameters, c);
     FlightRun run(c, outputDirectory(parameters, c), {});
