@@ -33,7 +33,7 @@ file(GLOB ros_sources CONFIGURE_DEPENDS src/ros_io/*.cpp src/viz/*.cpp)
 add_library(monarch_ros_io SHARED ${ros_sources})
 #catkin_lint: ignore_once external_directory
 target_include_directories(monarch_ros_io SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include)
-target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES} PRIVATE OpenSSL::Crypto)
+target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES} PRIVATE OpenSSL::Crypto ${CMAKE_DL_LIBS})
 add_dependencies(monarch_ros_io monarch_flight_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 target_compile_definitions(monarch_ros_io PRIVATE
   MONARCH_SOURCE_SHARE="${CMAKE_CURRENT_SOURCE_DIR}")

@@ -11,6 +11,7 @@
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/ros_io/coordinator_node.h"
 #include "monarch_flight/ros_io/flight_run.h"
+#include "monarch_flight/ros_io/loopback.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/participant_node.h"
 #include "monarch_flight/run/federation.h"
@@ -39,23 +40,21 @@ int guarded(const std::string& name, const std::function<int()>& body) {
   }
 }
 
-// Nobody outside this machine can connect, unless the person has given the node an address.
-void bindToLoopback() {
-  if (std::getenv("ROS_IP") == nullptr && std::getenv("ROS_HOSTNAME") == nullptr) {
-    setenv("ROS_HOSTNAME", "localhost", 1);
-  }
-}
+// Takes leave of the master, however the node ends.
+struct Farewell {
+  ~Farewell() { ros::shutdown(); }
+};
 
 int nodeMain(const std::string& name, int argc, char** argv, const std::function<int()>& body) {
   return guarded(name, [&] {
     // Namespace of the package unless the launcher gives another.
     if (std::getenv("ROS_NAMESPACE") == nullptr) setenv("ROS_NAMESPACE", kNamespace, 1);
-    bindToLoopback();
+    preferLoopback();
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     requireFreeMaster();
-    const int code = body();
-    ros::shutdown();
-    return code;
+    const Farewell farewell;
+    startOnLoopback();
+    return body();
   });
 }
 
