@@ -6,7 +6,7 @@
 
 namespace monarch_flight {
 
-constexpr double kUpwindMin = 0.05;  ///< share of first-order upwind at small Courant numbers
+constexpr double kUpwindMin = 0.02;  ///< share of first-order upwind at small Courant numbers
 constexpr double kUpwindMax = 0.30;  ///< and at Courant numbers above 2
 
 /// What a face between two points adds to a A_d, before the division by the width of a point's
