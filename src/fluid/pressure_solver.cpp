@@ -48,21 +48,32 @@ PressureSolver::~PressureSolver() = default;
 
 // 1. modes of x and y; 2. z from both ends to the wing's plane; 3. the wing's answer to the jump
 // there (by each process that touches the plane, alike); 4. z back outwards; 5. modes to cells.
-void PressureSolver::solve(double* b_to_p) const {
+void PressureSolver::solve(double* b_to_p, KernelTimes& times) const {
+  LapTimer timer(times);
   double* spectrum = impl_->spectrum.data();
   double* wing_plane = impl_->wing_plane.data();
   impl_->transform.forwardNegative(b_to_p, spectrum);
+  timer.lap(Kernel::kTransforms);
   if (!impl_->grid.open) impl_->columns.removeMean(spectrum);
   impl_->columns.eliminate(spectrum);
   impl_->columns.meet(spectrum);
+  timer.lap(Kernel::kColumns);
   if (wingFaces() > 0 && impl_->columns.touchesWing()) {
     impl_->columns.jump(wing_plane);
     impl_->wing.answer(wing_plane);
     impl_->columns.addDipole(wing_plane);
   }
+  timer.lap(Kernel::kCapacitance);
   impl_->columns.substitute(spectrum);
   if (!impl_->grid.open) impl_->columns.centre(spectrum);
+  timer.lap(Kernel::kColumns);
   impl_->transform.inverse(spectrum, b_to_p);
+  timer.lap(Kernel::kTransforms);
+}
+
+void PressureSolver::solve(double* b_to_p) const {
+  KernelTimes nobody_asks{};
+  solve(b_to_p, nobody_asks);
 }
 
 void PressureSolver::apply(const double* p, double* y) const {

@@ -142,6 +142,8 @@ ParticipantReply toMessage(const Reply& reply) {
     }
   }
   out.wall_s = reply.wall_s;
+  const KernelTimes& kernels = reply.report.kernel_s;
+  if (kernels != KernelTimes{}) out.kernel_s.assign(kernels.begin(), kernels.end());
   out.error = reply.error;
   out.surface.reserve(reply.surface.facets.size());
   for (const SurfacePressure::Facet& f : reply.surface.facets) {
@@ -187,6 +189,7 @@ Reply fromMessage(const ParticipantReply& reply) {
     }
   }
   out.wall_s = reply.wall_s;
+  std::copy(reply.kernel_s.begin(), reply.kernel_s.end(), out.report.kernel_s.begin());
   out.error = reply.error;
   out.surface.facets.reserve(reply.surface.size());
   for (const PressureFacet& f : reply.surface) {
@@ -233,6 +236,10 @@ std::string problem(const ParticipantReply& reply) {
   const std::size_t numbers = reply.load_operator.size();
   if (numbers != 0 && numbers != 72) {
     return "load operator of " + std::to_string(numbers) + " numbers, not 72";
+  }
+  const std::size_t kernels = reply.kernel_s.size();
+  if (kernels != 0 && kernels != kKernels) {
+    return "times of " + std::to_string(kernels) + " kernels, not " + std::to_string(kKernels);
   }
   return problem(reply.protocol, reply.key);
 }

@@ -91,6 +91,7 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
       for (int k = 0; k < 36; ++k) reply.report.added_mass(k / 6, k % 6) = anyNumber();
     }
     reply.report.operator_cost = i % 7;
+    for (double& s : reply.report.kernel_s) s = anyNumber();
     if (i % 3 == 1) {
       reply.jacobian.emplace();
       for (int k = 0; k < 36; ++k) {
@@ -112,6 +113,9 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
     EXPECT_EQ(reply.report.cells, back.report.cells);
     expectBitwise(reply.report.added_mass, back.report.added_mass);
     EXPECT_EQ(reply.report.operator_cost, back.report.operator_cost);
+    for (std::size_t k = 0; k < kKernels; ++k) {
+      expectBitwise(reply.report.kernel_s[k], back.report.kernel_s[k]);
+    }
     ASSERT_EQ(reply.jacobian.has_value(), back.jacobian.has_value());
     if (reply.jacobian) {
       expectBitwise(reply.jacobian->velocity, back.jacobian->velocity);
@@ -152,7 +156,7 @@ TEST(Conversions, UnusableMessagesAreNamed) {
   request.key.phase = 4;
   EXPECT_EQ("unknown phase 4", problem(request));
   request.protocol = kProtocolVersion + 1;
-  EXPECT_NE(std::string::npos, problem(request).find("protocol version 3 instead of 2"));
+  EXPECT_NE(std::string::npos, problem(request).find("protocol version 4 instead of 3"));
   ParticipantReply reply = toMessage(Reply());
   EXPECT_EQ("", problem(reply));
   reply.added_mass.resize(35);

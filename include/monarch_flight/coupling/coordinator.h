@@ -56,6 +56,7 @@ class Coordinator {
   struct Interrupted {};  // `stop` was seen
 
   void start(const std::vector<StepSink*>& sinks);
+  void deliver(const std::vector<StepSink*>& sinks, CommittedStep& step);
   CommittedStep advance(std::uint32_t step, const bool& stop);
   void solve(const bool& stop, Evaluation& last, CommittedStep& out);
   bool attempt(Accelerator& accelerator, std::uint32_t number, const bool& stop, Evaluation& last,
@@ -89,6 +90,7 @@ class Coordinator {
   Interface committed_;       // level n
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known
+  double outputs_s_ = 0.0;                 // wall time of the sinks so far
   // Running scales: largest of the recent past, at least what is worth noticing.
   double force_scale_ = 0.0, moment_scale_ = 0.0;
   CouplingVector increment_scales_ = CouplingVector::Zero();

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "monarch_flight/fluid/kernel_times.h"
 #include "monarch_flight/insect/state.h"
 
 namespace monarch_flight {
@@ -42,6 +43,7 @@ struct FluidReport {
   long cells = 0;
   Matrix6d added_mass = Matrix6d::Zero();
   int operator_cost = 0;  ///< FluidModel::operatorCost
+  KernelTimes kernel_s{};  ///< wall time by kernel since `start` (0: no grid), of process 0
 };
 
 /// The one contract of all flow models. A model owns a committed state at time level n.
