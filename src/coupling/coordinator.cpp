@@ -60,14 +60,19 @@ Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& sett
       accelerator_(makeAccelerator(settings, step_model_)),
       cautious_(makeAccelerator(cautious(settings), step_model_)) {}
 
-CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, const bool& stop) {
+CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, RunControl& control) {
   CoupledOutcome outcome;
   std::uint32_t step = 0;
   try {
     start(sinks);
     for (step = 1; step <= model_.steps; ++step) {
-      CommittedStep committed = advance(step, stop);
-      deliver(sinks, committed);
+      try {
+        CommittedStep committed = advance(step, control);
+        deliver(sinks, committed);
+      } catch (const SetBack&) {
+        startAgain(sinks);
+        step = 0;
+      }
     }
     outcome.complete = true;
   } catch (const Interrupted&) {
@@ -94,7 +99,7 @@ void Coordinator::start(const std::vector<StepSink*>& sinks) {
   out.t = model_.time(0);
   out.prescribed = true;
   Request request;
-  request.key = {run_id_, 0, 0, Phase::kStart};
+  request.key = keyOf(0, 0, Phase::kStart);
   request.t = out.t;
   request.interface = model_.prescribed(out.t);
   for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
@@ -122,7 +127,25 @@ void Coordinator::deliver(const std::vector<StepSink*>& sinks, CommittedStep& st
   outputs_s_ += secondsSince(begin);
 }
 
-CommittedStep Coordinator::advance(std::uint32_t step, const bool& stop) {
+void Coordinator::startAgain(const std::vector<StepSink*>& sinks) {
+  ++resets_;
+  for (StepSink* sink : sinks) sink->onReset();
+  start(sinks);
+}
+
+/// Asks who leads the run before the next sub-iteration of `out`.
+void Coordinator::heed(RunControl& control, const CommittedStep& out) {
+  switch (control.next(out.step, static_cast<std::uint32_t>(out.iterations.size()))) {
+    case RunControl::Order::kGoOn:
+      return;
+    case RunControl::Order::kStop:
+      throw Interrupted();
+    case RunControl::Order::kReset:
+      throw SetBack();
+  }
+}
+
+CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
   const auto begin = Clock::now();
   CommittedStep out;
   out.step = step;
@@ -132,35 +155,35 @@ CommittedStep Coordinator::advance(std::uint32_t step, const bool& stop) {
 
   Evaluation last;
   if (out.prescribed) {
-    if (stop) throw Interrupted();
+    heed(control, out);
     last = evaluate(step_model_.prescribed(), false, out);
   } else {
-    solve(stop, last, out);
+    solve(control, last, out);
   }
   commit(last, out);
   out.coupling_s = ownSeconds(begin, out);
   return out;
 }
 
-void Coordinator::solve(const bool& stop, Evaluation& last, CommittedStep& out) {
+void Coordinator::solve(RunControl& control, Evaluation& last, CommittedStep& out) {
   std::string error;
-  if (attempt(*accelerator_, 1, stop, last, out, error)) return;
+  if (attempt(*accelerator_, 1, control, last, out, error)) return;
   accelerator_->forget();
   cautious_->forget();
-  if (!attempt(*cautious_, 2, stop, last, out, error)) {
+  if (!attempt(*cautious_, 2, control, last, out, error)) {
     throw NumericalError(notConverged(out, error));
   }
 }
 
 /// Returns whether it converged; `error` says what a solver complained of. A lost participant ends
 /// the run (ExchangeError): asking again would not bring it back.
-bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, const bool& stop,
+bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, RunControl& control,
                           Evaluation& last, CommittedStep& out, std::string& error) {
   const std::size_t first = out.iterations.size();
   bool converged = false;
   try {
     converged =
-        converge(accelerator, number == 1 ? predictedIncrements() : history_[0], stop, last, out);
+        converge(accelerator, number == 1 ? predictedIncrements() : history_[0], control, last, out);
   } catch (const NumericalError& e) {
     error = e.what();
     IterationRecord failed;  // its number is used up: a key never means two requests
@@ -176,13 +199,13 @@ bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, const 
   return converged;
 }
 
-bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, const bool& stop,
+bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, RunControl& control,
                            Evaluation& last, CommittedStep& out) {
   accelerator.beginStep(out.step);
   double first = 0.0;
   std::optional<Loads> expected;
   for (int k = 0; k < settings_.max_sub_iterations; ++k) {
-    if (stop) throw Interrupted();
+    heed(control, out);
     last = evaluate(step_model_.interface(d), accelerator.wantsOperator(operator_cost_), out);
     last.trial.d = d;
     judge(expected, last, out);
@@ -219,14 +242,19 @@ Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, bool want_
                                               CommittedStep& out) {
   Evaluation evaluation;
   Request& request = evaluation.request;
-  request.key = {run_id_, out.step, static_cast<std::uint32_t>(out.iterations.size()),
-                 Phase::kIterate};
+  request.key =
+      keyOf(out.step, static_cast<std::uint32_t>(out.iterations.size()), Phase::kIterate);
   request.t = out.t;
   request.interface = guess;
 
   Request to_fluid = request;
   to_fluid.want_operator = want_operator;
   const Reply air = ask(Role::kFluid, to_fluid, out);
+  if (want_operator && !air.jacobian) {
+    throw ExchangeError(
+        "the fluid did not answer with its load operator, which coupling/relaxation = added_mass "
+        "needs: let it answer, or take iqn_ils");
+  }
   out.fluid_evaluations += 1 + (want_operator ? operator_cost_ : 0);
   evaluation.trial.jacobian = air.jacobian;
   Request with_loads = request;
@@ -272,6 +300,7 @@ void Coordinator::balance(const Evaluation& last, CommittedStep& out) const {
 }
 
 void Coordinator::finish(const Loads& loads, CommittedStep& out) {
+  for (const Participant* participant : participants_) out.ignored += participant->ignored();
   out.loads = loads;
   out.angles = model_.angles(out.t, out.interface.theta_R);
   const double beta = model_.insect.beta;
@@ -291,13 +320,17 @@ void Coordinator::finish(const Loads& loads, CommittedStep& out) {
 
 void Coordinator::abort(std::uint32_t step) noexcept {
   Request request;
-  request.key = {run_id_, step, 0, Phase::kAbort};
+  request.key = keyOf(step, 0, Phase::kAbort);
   for (Participant* participant : participants_) {
     try {
       participant->exchange(request);
     } catch (...) {  // the run is over; who cannot hear it has its own watchdog
     }
   }
+}
+
+ExchangeKey Coordinator::keyOf(std::uint32_t step, std::uint32_t iteration, Phase phase) const {
+  return {run_id_, step, iteration, phase, resets_};
 }
 
 Reply Coordinator::ask(Role role, const Request& request, CommittedStep& out) {

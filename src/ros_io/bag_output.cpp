@@ -50,6 +50,15 @@ void BagOutput::open(const std::vector<StampedMessage>&) {
   }
 }
 
+void BagOutput::restart() {
+  try {
+    if (bag_) bag_->close();
+  } catch (const rosbag::BagException&) {  // what it held is void; open() meets the same disk
+    giveUp();
+  }
+  open({});
+}
+
 void BagOutput::write(const StampedMessage& message) {
   if (!bag_) return;
   try {

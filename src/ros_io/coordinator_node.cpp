@@ -24,7 +24,7 @@ RunParameters readParameters() {
 
 }  // namespace
 
-CoordinatorNode::CoordinatorNode(const bool& stop)
+CoordinatorNode::CoordinatorNode(const StopFlag& stop)
     : stop_(stop), parameters_(readParameters()), case_(loadCase(parameters_)), node_(kNamespace) {
   run_.id = randomRunId();
   run_.limits = limitsFor(case_.watchdog_s);
@@ -52,7 +52,8 @@ int CoordinatorNode::run() {
 int CoordinatorNode::fly() {
   RosOutput topics(node_);
   FlightRun run(case_, outputDirectory(parameters_, case_), {&topics});
-  return run.fly(run_.id, *participants_[0], *participants_[1], *participants_[2], stop_);
+  FlyUntil control(stop_);
+  return run.fly(run_.id, *participants_[0], *participants_[1], *participants_[2], control, stop_);
 }
 
 void CoordinatorNode::dismiss() noexcept {

@@ -277,13 +277,19 @@ diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep
 }
 
 MessageSink::MessageSink(const Case& c, std::vector<MessageOutput*> outputs)
-    : messages_(c), outputs_(std::move(outputs)) {
+    : case_(c), messages_(c), outputs_(std::move(outputs)) {
   const std::vector<StampedMessage> topics = messages_.topics();
   for (MessageOutput* output : outputs_) output->open(topics);
   write(messages_.opening());
 }
 
 void MessageSink::onStep(const CommittedStep& step) { write(messages_.of(step)); }
+
+void MessageSink::onReset() {
+  messages_ = FlightMessages(case_);
+  for (MessageOutput* output : outputs_) output->restart();
+  write(messages_.opening());
+}
 
 void MessageSink::onEnd(const std::string&) {
   for (MessageOutput* output : outputs_) output->close();

@@ -21,6 +21,10 @@ class SinkChain : public StepSink {
     for (StepSink* sink : sinks_) sink->onStep(step);
   }
 
+  void onReset() override {
+    for (StepSink* sink : sinks_) sink->onReset();
+  }
+
   void onEnd(const std::string& failure) override {
     failure_ = failure;
     for (StepSink* sink : sinks_) {
@@ -89,10 +93,10 @@ std::unique_ptr<Participant> makeParticipant(Role role, const Case& c) {
 }
 
 RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
-                  Participant& wing, const std::vector<StepSink*>& sinks, const bool& stop) {
+                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control) {
   SinkChain chain(sinks);
   Coordinator coordinator(makeModel(c), c.coupling, fluid, flight, wing, run_id);
-  const CoupledOutcome outcome = coordinator.run({&chain}, stop);
+  const CoupledOutcome outcome = coordinator.run({&chain}, control);
   RunResult result;
   result.failure = chain.failure().empty() ? outcome.failure : chain.failure();
   result.complete = outcome.complete && result.failure.empty();
@@ -105,9 +109,10 @@ InProcessFederation::InProcessFederation(const Case& c) : case_(c) {
 }
 
 RunResult InProcessFederation::run(std::uint64_t run_id, const std::vector<StepSink*>& sinks,
-                                   const bool& stop) {
+                                   const StopFlag& stop) {
+  FlyUntil control(stop);
   return runCase(case_, run_id, *participants_[0], *participants_[1], *participants_[2], sinks,
-                 stop);
+                 control);
 }
 
 }  // namespace monarch_flight

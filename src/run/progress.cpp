@@ -46,6 +46,11 @@ void ProgressSink::onStep(const CommittedStep& step) {
   }
 }
 
+void ProgressSink::onReset() {
+  next_tenth_ = 1;
+  if (!terminal_) out_ << "set back to the start" << std::endl;
+}
+
 void ProgressSink::onEnd(const std::string&) {
   if (terminal_ && width_ > 0) out_ << std::endl;
 }

@@ -22,26 +22,35 @@ void collect(std::string& failure, Action action) {
 
 }  // namespace
 
+RunOutputs::Files::Files(const Case& c, const RunDirectory& directory)
+    : flight(directory.file("flight.csv")),
+      iterations(directory.file("iterations.csv")),
+      summary(c) {}
+
 RunOutputs::RunOutputs(const Case& c, const std::string& directory)
-    : directory_(directory, estimatedOutputBytes(c)),
-      flight_(directory_.file("flight.csv")),
-      iterations_(directory_.file("iterations.csv")),
-      summary_(c) {
+    : case_(c),
+      directory_(directory, estimatedOutputBytes(c)),
+      files_(std::make_unique<Files>(c, directory_)) {
   writeWhole(directory_.file("case.yaml"), c.resolved_yaml);
 }
 
 void RunOutputs::onStep(const CommittedStep& step) {
-  summary_.add(step);
-  flight_.append(step);
-  iterations_.append(step);
+  files_->summary.add(step);
+  files_->flight.append(step);
+  files_->iterations.append(step);
+}
+
+void RunOutputs::onReset() {
+  files_.reset();
+  files_ = std::make_unique<Files>(case_, directory_);
 }
 
 void RunOutputs::onEnd(const std::string& failure) {
   std::string all = failure;
-  collect(all, [&] { flight_.file().finish(); });
-  collect(all, [&] { iterations_.file().finish(); });
+  collect(all, [&] { files_->flight.file().finish(); });
+  collect(all, [&] { files_->iterations.file().finish(); });
   const std::string before_summary = all;
-  collect(all, [&] { writeWhole(directory_.file("summary.json"), summary_.json(before_summary)); });
+  collect(all, [&] { writeWhole(directory_.file("summary.json"), files_->summary.json(before_summary)); });
   if (all != failure) throw OutputError(all);
 }
 

@@ -60,6 +60,7 @@ void Summary::add(const CommittedStep& step) {
   theta_R_.add(step.interface.theta_R.q);
   hash_.add(step);
   addTimes(step);
+  ignored_ = step.ignored;
   if (step.step == 0) {
     t_first_ = t_last_ = step.t;
     x_first_ = x_last_ = body.x;
@@ -151,6 +152,11 @@ std::string Summary::json(const std::string& failure) const {
                  {"coupling", coupling_},
                  {"outputs", outputs_}};
   if (cells_ > 0) j["fluid_s"] = kernels(kernels_, wall_[0]);
+  j["ignored_messages"] = {{"late", ignored_.late},
+                           {"repeated", ignored_.repeated},
+                           {"foreign", ignored_.foreign},
+                           {"malformed", ignored_.malformed},
+                           {"forged", ignored_.forged}};
   j["cells"] = cells_;
   j["added_mass"] = matrix(added_mass_);
   j["state_sha256"] = hash_.hex();

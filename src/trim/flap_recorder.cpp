@@ -35,6 +35,12 @@ void FlapRecorder::onStep(const CommittedStep& step) {
   q_[3].push_back(wing.q);
 }
 
+void FlapRecorder::onReset() {
+  states_.clear();
+  accelerations_.clear();
+  for (std::vector<double>& samples : q_) samples.clear();
+}
+
 Flap FlapRecorder::flap(std::size_t first, std::size_t last) const {
   Flap f;
   f.start = states_[first];
@@ -77,7 +83,7 @@ FlapShape flapShape(const std::array<std::vector<double>, 4>& samples, const Tim
 Flight flyCase(Case c, FlapRecorder& recorder) {
   c.output.surface_every = c.output.vortices_every = 0;
   const auto begin = std::chrono::steady_clock::now();
-  const bool stop = false;
+  const StopFlag stop{false};
   InProcessFederation federation(c);
   const RunResult result = federation.run(1, {&recorder}, stop);
   Flight flight;

@@ -8,6 +8,7 @@
 #include "monarch_flight/coupling/interface_balance.h"
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/run_control.h"
 #include "monarch_flight/coupling/settings.h"
 #include "monarch_flight/coupling/step_model.h"
 
@@ -42,10 +43,10 @@ class Coordinator {
   Coordinator(const CoupledModel& model, const CouplingSettings& settings, Participant& fluid,
               Participant& flight, Participant& wing, std::uint64_t run_id);
 
-  /// Runs all steps; level 0 is delivered first. `stop` is polled between sub-iterations. Never
+  /// Runs all steps; level 0 is delivered first. `control` is asked before every sub-iteration. Never
   /// throws for a failed run: participants get ABORT, sinks get onEnd(failure), and the outcome
   /// says why.
-  CoupledOutcome run(const std::vector<StepSink*>& sinks, const bool& stop);
+  CoupledOutcome run(const std::vector<StepSink*>& sinks, RunControl& control);
 
  private:
   struct Evaluation {  // one sub-iteration
@@ -53,15 +54,19 @@ class Coordinator {
     Trial trial;       // its increments, residual and loads
     Interface answer;  // w~^k
   };
-  struct Interrupted {};  // `stop` was seen
+  struct Interrupted {};  // the control ends the run
+  struct SetBack {};      // the control begins it again
 
   void start(const std::vector<StepSink*>& sinks);
   void deliver(const std::vector<StepSink*>& sinks, CommittedStep& step);
-  CommittedStep advance(std::uint32_t step, const bool& stop);
-  void solve(const bool& stop, Evaluation& last, CommittedStep& out);
-  bool attempt(Accelerator& accelerator, std::uint32_t number, const bool& stop, Evaluation& last,
+  void startAgain(const std::vector<StepSink*>& sinks);
+  static void heed(RunControl& control, const CommittedStep& out);
+  ExchangeKey keyOf(std::uint32_t step, std::uint32_t iteration, Phase phase) const;
+  CommittedStep advance(std::uint32_t step, RunControl& control);
+  void solve(RunControl& control, Evaluation& last, CommittedStep& out);
+  bool attempt(Accelerator& accelerator, std::uint32_t number, RunControl& control, Evaluation& last,
                CommittedStep& out, std::string& error);
-  bool converge(Accelerator& accelerator, CouplingVector d, const bool& stop, Evaluation& last,
+  bool converge(Accelerator& accelerator, CouplingVector d, RunControl& control, Evaluation& last,
                 CommittedStep& out);
   Evaluation evaluate(const Interface& guess, bool want_operator, CommittedStep& out);
   void judge(const std::optional<Loads>& expected, Evaluation& evaluation, CommittedStep& out);
@@ -82,6 +87,7 @@ class Coordinator {
   CouplingSettings settings_;
   std::array<Participant*, 3> participants_;
   std::uint64_t run_id_;
+  std::uint32_t resets_ = 0;
   StepModel step_model_;
   InterfaceBalance balance_;
   std::unique_ptr<Accelerator> accelerator_, cautious_;  // of first and of second attempts

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/insect/newmark.h"
 #include "monarch_flight/insect/state.h"
@@ -63,6 +64,7 @@ struct CommittedStep {
   SurfacePressure surface;             ///< empty unless fields were due
   std::vector<VortexPoint> vortices;   ///< empty unless fields were due
   std::array<double, 3> wall_s{};      ///< computing time of fluid, flight, wing in this step
+  IgnoredMessages ignored;             ///< of all participants since the run began
   double exchange_s = 0.0;             ///< wall time of the step's exchanges beyond that: messages and waiting
   double coupling_s = 0.0;             ///< wall time of the coordinator's own computing in this step
   double outputs_s = 0.0;              ///< wall time that the sinks took for all steps before this one
@@ -73,6 +75,8 @@ class StepSink {
  public:
   virtual ~StepSink() = default;
   virtual void onStep(const CommittedStep& step) = 0;
+  /// The run goes back to its start: what has been delivered is void, level 0 comes again.
+  virtual void onReset() = 0;
   /// The run is over; `failure` is empty after a complete run. Called exactly once.
   virtual void onEnd(const std::string& failure) = 0;
 };

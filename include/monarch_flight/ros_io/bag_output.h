@@ -16,6 +16,8 @@ class BagOutput : public MessageOutput {
   ~BagOutput() override;
   void open(const std::vector<StampedMessage>& topics) override;
   void write(const StampedMessage& message) override;
+  /// Begins the bag anew.
+  void restart() override;
   /// Closes and gives the bag its name.
   void close() override;
 

@@ -91,6 +91,8 @@ class MessageOutput {
   virtual ~MessageOutput() = default;
   virtual void open(const std::vector<StampedMessage>& topics) = 0;
   virtual void write(const StampedMessage& message) = 0;
+  /// What has been written is void; the opening and level 0 come again.
+  virtual void restart() = 0;
   /// The run is over.
   virtual void close() = 0;
 };
@@ -101,11 +103,13 @@ class MessageSink : public StepSink {
   /// Opens the outputs and writes what comes before the first step. Outputs must outlive the sink.
   MessageSink(const Case& c, std::vector<MessageOutput*> outputs);
   void onStep(const CommittedStep& step) override;
+  void onReset() override;
   void onEnd(const std::string& failure) override;
 
  private:
   void write(const std::vector<StampedMessage>& messages);
 
+  Case case_;
   FlightMessages messages_;
   std::vector<MessageOutput*> outputs_;
 };

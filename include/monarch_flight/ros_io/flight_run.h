@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/run_control.h"
 #include "monarch_flight/ros_io/bag_output.h"
 #include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/run/progress.h"
@@ -17,9 +18,9 @@ class FlightRun {
  public:
   /// Makes the folder `out`. `listeners` also get the messages. Throws InputError, OutputError.
   FlightRun(const Case& c, const std::string& out, std::vector<MessageOutput*> listeners);
-  /// Flies; prints the end; returns an exit code.
+  /// Flies as `control` says; prints the end; returns an exit code (`stop`: stopped by hand).
   int fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
-          const bool& stop);
+          RunControl& control, const StopFlag& stop);
 
  private:
   const Case& case_;

@@ -5,6 +5,7 @@
 
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/run_control.h"
 #include "monarch_flight/run/case.h"
 
 namespace monarch_flight {
@@ -23,17 +24,18 @@ struct RunResult {
 };
 
 /// Runs the coupled loop of the whole case over three participants and feeds the sinks.
-/// `stop` is polled between sub-iterations (SIGINT). Never throws for a failed run: see RunResult.
+/// `control` is asked before every sub-iteration. Never throws for a failed run: see RunResult.
 /// A sink that throws in onStep ends the run with its message; one that throws in onEnd makes it
 /// failed, and the sinks behind it are ended with that failure.
 RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
-                  Participant& wing, const std::vector<StepSink*>& sinks, const bool& stop);
+                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control);
 
 /// Fluid, flight and wing of a case in one process, without ROS.
 class InProcessFederation {
  public:
   explicit InProcessFederation(const Case& c);
-  RunResult run(std::uint64_t run_id, const std::vector<StepSink*>& sinks, const bool& stop);
+  /// Flies until the end or until `stop` is set.
+  RunResult run(std::uint64_t run_id, const std::vector<StepSink*>& sinks, const StopFlag& stop);
   Participant& participant(Role role) { return *participants_[static_cast<int>(role)]; }
 
  private:

@@ -15,6 +15,7 @@ class ProgressSink : public StepSink {
   /// `out` must outlive the sink; `terminal` says whether a line can be redrawn on it.
   ProgressSink(std::ostream& out, bool terminal, const TimeGrid& time);
   void onStep(const CommittedStep& step) override;
+  void onReset() override;
   void onEnd(const std::string& failure) override;
 
  private:

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 
 #include "monarch_flight/run/csv_tables.h"
@@ -19,16 +20,24 @@ class RunOutputs : public StepSink {
 
   /// Throws OutputError, which ends the run.
   void onStep(const CommittedStep& step) override;
+  /// Files and figures begin anew. Throws OutputError.
+  void onReset() override;
   /// Throws OutputError when a file could not be finished; all others are finished nevertheless.
   void onEnd(const std::string& failure) override;
 
   const RunDirectory& directory() const { return directory_; }
 
  private:
+  struct Files {
+    Files(const Case& c, const RunDirectory& directory);
+    FlightTable flight;
+    IterationTable iterations;
+    Summary summary;
+  };
+
+  Case case_;
   RunDirectory directory_;
-  FlightTable flight_;
-  IterationTable iterations_;
-  Summary summary_;
+  std::unique_ptr<Files> files_;
 };
 
 }  // namespace monarch_flight

@@ -54,6 +54,7 @@ class Summary {
   KernelTimes kernels_{};
   long cells_ = 0;
   Matrix6d added_mass_ = Matrix6d::Zero();
+  IgnoredMessages ignored_;
   StateHash hash_;
 };
 
