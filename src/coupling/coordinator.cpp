@@ -280,10 +280,12 @@ void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
   const bool vortices = due(out.step, model_.vortices_every);
   for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
     request.want_fields = role == Role::kFluid && (surface || vortices);
+    request.want_flow = role == Role::kFluid && due(out.step, model_.fields_every);
     Reply reply = ask(role, request, out);
     if (role != Role::kFluid) continue;
     out.fluid = reply.report;
     if (surface) out.surface = std::move(reply.surface);
+    out.flow = std::move(reply.flow);
     if (vortices) out.vortices = std::move(reply.vortices);
   }
   out.interface = request.interface;

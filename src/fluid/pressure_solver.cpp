@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
 #include "fluid/blas.h"
 #include "fluid/pressure_capacitance.h"
@@ -12,6 +13,20 @@
 
 namespace monarch_flight {
 
+namespace {
+
+/// Faces of the wing. Throws std::invalid_argument, on every process alike, when they close the whole
+/// plane of a closed box.
+int facesOf(const Grid& g) {
+  const auto count = std::count(g.wing.begin(), g.wing.end(), 1);
+  if (!g.open && static_cast<std::size_t>(count) == g.wing.size()) {
+    throw std::invalid_argument("PressureSolver: the wing closes the whole plane of a closed box");
+  }
+  return static_cast<int>(count);
+}
+
+}  // namespace
+
 struct PressureSolver::Impl {
   Impl(const Grid& g, const Slab& s)
       : grid(g),
@@ -20,7 +35,10 @@ struct PressureSolver::Impl {
         y(g.y, g.open),
         transform(x, y, slab.planes()),
         columns(g, slab, x, y, transform.blocks()),
-        wing(g, x, y, columns.jumpComplement()),
+        faces(facesOf(g)),
+        wing(columns.touchesWing()
+                 ? std::make_unique<WingCapacitance>(g, x, y, columns.jumpComplement())
+                 : nullptr),
         spectrum(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n() * slab.planes())),
         wing_plane(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())) {}
 
@@ -29,7 +47,8 @@ struct PressureSolver::Impl {
   const AxisModes x, y;
   const PlaneTransform transform;
   const PressureColumns columns;
-  const WingCapacitance wing;
+  const int faces;
+  const std::unique_ptr<const WingCapacitance> wing;  ///< only where its plane is touched
   Eigen::VectorXd spectrum, wing_plane;  // scratch
   double setup_seconds = 0.0;
 };
@@ -60,7 +79,7 @@ void PressureSolver::solve(double* b_to_p, KernelTimes& times) const {
   timer.lap(Kernel::kColumns);
   if (wingFaces() > 0 && impl_->columns.touchesWing()) {
     impl_->columns.jump(wing_plane);
-    impl_->wing.answer(wing_plane);
+    impl_->wing->answer(wing_plane);
     impl_->columns.addDipole(wing_plane);
   }
   timer.lap(Kernel::kCapacitance);
@@ -109,7 +128,7 @@ void PressureSolver::apply(const double* p, double* y) const {
   }
 }
 
-int PressureSolver::wingFaces() const { return impl_->wing.faces(); }
+int PressureSolver::wingFaces() const { return impl_->faces; }
 double PressureSolver::setupSeconds() const { return impl_->setup_seconds; }
 
 }  // namespace monarch_flight

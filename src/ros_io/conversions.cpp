@@ -108,6 +108,7 @@ ParticipantRequest toMessage(const Request& request) {
   out.loads = toMessage(request.loads);
   out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
+  out.want_flow = request.want_flow;
   return out;
 }
 
@@ -119,6 +120,7 @@ Request fromMessage(const ParticipantRequest& request) {
   out.loads = fromMessage(request.loads);
   out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
+  out.want_flow = request.want_flow;
   return out;
 }
 
@@ -166,6 +168,7 @@ ParticipantReply toMessage(const Reply& reply) {
     sample.omega_y = v.omega_y;
     out.vortices.push_back(sample);
   }
+  if (reply.flow) out.flow.push_back(toMessage(*reply.flow));
   return out;
 }
 
@@ -199,6 +202,7 @@ Reply fromMessage(const ParticipantReply& reply) {
   for (const VortexSample& v : reply.vortices) {
     out.vortices.push_back({v.x, v.y, v.z, v.q, v.omega_y});
   }
+  if (!reply.flow.empty()) out.flow = fromMessage(reply.flow.front());
   return out;
 }
 
@@ -240,6 +244,10 @@ std::string problem(const ParticipantReply& reply) {
   const std::size_t kernels = reply.kernel_s.size();
   if (kernels != 0 && kernels != kKernels) {
     return "times of " + std::to_string(kernels) + " kernels, not " + std::to_string(kKernels);
+  }
+  for (const WholeFlow& flow : reply.flow) {
+    const std::string misfit = problem(flow);
+    if (!misfit.empty()) return misfit;
   }
   return problem(reply.protocol, reply.key);
 }

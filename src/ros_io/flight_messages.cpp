@@ -140,9 +140,7 @@ FlightMessages::FlightMessages(const Case& c)
     : case_(c),
       path_stride_(stride(c.time, kPathPosesPerFlap)),
       diagnostics_stride_(stride(c.time, kDiagnosticsPerFlap)) {
-  const double whole = c.time.steps * c.time.dt;
-  const double duration = c.time.period > 0.0 ? std::min(c.time.period, whole) : whole;
-  pressure_ = pressureReference(c.insect, *c.motion, c.air, c.time.t_start, duration);
+  pressure_ = pressureReference(c);
   path_.header.frame_id = frames::kWorld;
 }
 

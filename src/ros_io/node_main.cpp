@@ -87,7 +87,13 @@ int inProcessMain(int argc, char** argv) {
   return guarded("fly_in_process", [&] {
     const RunParameters parameters = runParameters(argc, argv);
     const Case c = loadCase(parameters);
+    if (parameters.plan) {
+      const std::string plan = plannedRun(parameters, c);
+      std::cout << (plan.empty() ? "quasi-steady air: no grid to plan\n" : plan);
+      return static_cast<int>(kExitComplete);
+    }
     requireProcesses(parameters, c);
+    std::cout << plannedRun(parameters, c);
     FlightRun run(c, outputDirectory(parameters, c), {});
     InProcessFederation federation(c);
     FlyUntil control(stop_requested);

@@ -1,8 +1,10 @@
 #pragma once
 #include <Eigen/Dense>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "monarch_flight/fluid/flow_field.h"
 #include "monarch_flight/fluid/kernel_times.h"
 #include "monarch_flight/insect/state.h"
 
@@ -73,6 +75,8 @@ class FluidModel {
   virtual SurfacePressure surfacePressure() const = 0;
   /// At most `limit` points with Q > q_threshold; empty where there is no field.
   virtual std::vector<VortexPoint> vortices(double q_threshold, int limit) const = 0;
+  /// The committed level as a whole; null where there is no field.
+  virtual std::shared_ptr<const FlowField> flowField() const { return nullptr; }
 };
 
 /// Uniform air and gravity.
