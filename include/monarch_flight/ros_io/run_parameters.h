@@ -19,6 +19,7 @@ struct RunParameters {
   CaseOverrides overrides;     ///< fluid, grid, flaps, steps_per_flap, record, fields_every
   bool plan = false;           ///< `plan`: tell what the run means and end (command line only)
   int ranks = 1;               ///< `ranks`: processes of the flow solver
+  bool paused = false;         ///< `paused`: hold the run at its start (nodes only)
   double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
 };
 
