@@ -107,6 +107,7 @@ FlightState flightState(const CommittedStep& step, const ros::Time& stamp) {
   out.divergence = step.fluid.divergence;
   std::copy(step.wall_s.begin(), step.wall_s.end(), out.wall_s.begin());
   out.exchange_s = step.exchange_s;
+  out.coupling_s = step.coupling_s;
   return out;
 }
 
