@@ -2,11 +2,10 @@
 import vtkmodules.vtkInteractionStyle  # noqa: F401 (VTK chooses its implementations by what is imported)
 import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
-from vtkmodules.vtkCommonColor import vtkNamedColors
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
-from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkContourFilter, vtkTubeFilter
+from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkContourFilter, vtkReverseSense, vtkTubeFilter
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLStructuredGridReader
@@ -14,16 +13,18 @@ from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer,
                                          vtkRenderWindow, vtkWindowToImageFilter)
 
-COLOURS = vtkNamedColors()
-CP_RANGE = 1.0
+# Ends of the two scales, both told apart by eyes that see no red or no green.
+BLUE, RED = (0.13, 0.29, 0.74), (0.73, 0.10, 0.13)
+TEAL, ORANGE = (0.00, 0.45, 0.45), (0.90, 0.45, 0.00)
 
 
 def diverging(limit, left, right):
     """Colours from `left` over near white to `right`, on [-limit, limit]."""
     scale = vtkColorTransferFunction()
-    scale.SetColorSpaceToDiverging()
-    scale.AddRGBPoint(-limit, *COLOURS.GetColor3d(left))
-    scale.AddRGBPoint(limit, *COLOURS.GetColor3d(right))
+    scale.SetColorSpaceToLab()
+    scale.AddRGBPoint(0, 0.93, 0.93, 0.93)
+    scale.AddRGBPoint(-limit, *left)
+    scale.AddRGBPoint(limit, *right)
     return scale
 
 
@@ -48,7 +49,7 @@ def vortices(flow, q):
     contour = vtkContourFilter()
     contour.SetInputData(grid)
     contour.SetValue(0, q)
-    contour.ComputeScalarsOn()
+    contour.ComputeScalarsOff()
     contour.Update()
     return contour.GetOutput()
 
@@ -61,8 +62,12 @@ def mirrored(data, east):
     image = vtkTransformPolyDataFilter()
     image.SetInputData(data)
     image.SetTransform(reflection)
-    image.Update()
-    return image.GetOutput()
+    outside = vtkReverseSense()  # a reflection turns the surface inside out
+    outside.SetInputConnection(image.GetOutputPort())
+    outside.ReverseCellsOn()
+    outside.ReverseNormalsOff()
+    outside.Update()
+    return outside.GetOutput()
 
 
 def path(points, radius):
@@ -94,8 +99,9 @@ def bar(scale, title, x):
     legend.SetLookupTable(scale)
     legend.SetTitle(title)
     legend.SetNumberOfLabels(5)
-    legend.SetPosition(x, 0.06)
-    legend.SetWidth(0.09)
+    legend.SetPosition(x, 0.05)
+    legend.SetWidth(0.12)
+    legend.SetBarRatio(0.2)
     legend.SetHeight(0.36)
     legend.SetLabelFormat("%.3g")
     legend.UnconstrainedFontSizeOn()
@@ -108,9 +114,9 @@ def bar(scale, title, x):
     return legend
 
 
-def wing_actors(wings):
+def wing_actors(wings, limit):
     """Both sides, each by its own pressure: the front side of every face is the ventral one."""
-    scale = diverging(CP_RANGE, "royal_blue", "firebrick")
+    scale = diverging(limit, BLUE, RED)
     dorsal, ventral = actor_of(wings, "Cp_dorsal", scale, True), actor_of(wings, "Cp_ventral", scale, True)
     dorsal.GetProperty().FrontfaceCullingOn()
     ventral.GetProperty().BackfaceCullingOn()
@@ -137,18 +143,20 @@ def draw(flow_file, wing_file, points, direction, keys):
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     surface = vortices(flow, q)
-    vorticity_scale = diverging(keys["vorticity"] or 4 * q ** 0.5, "dark_cyan", "dark_orange")
+    vorticity_scale = diverging(keys["vorticity"] or 4 * q ** 0.5, TEAL, ORANGE)
     for data in [surface, mirrored(surface, body[0])][:sides]:
         actor = actor_of(data, "spanwise_vorticity", vorticity_scale, False)
-        actor.GetProperty().SetOpacity(0.55)
+        actor.GetProperty().SetOpacity(0.6)
+        actor.GetProperty().SetAmbient(0.35)
+        actor.GetProperty().SetDiffuse(0.75)
         renderer.AddActor(actor)
-    actors, pressure_scale = wing_actors(wings)
+    actors, pressure_scale = wing_actors(wings, keys["cp"] or 1.0)
     if len(points) > 1:
         actors.append(path(points, 0.006 * span))
     for actor in actors:
         renderer.AddActor(actor)
-    renderer.AddActor2D(bar(vorticity_scale, "spanwise vorticity [1/s]", 0.015))
-    renderer.AddActor2D(bar(pressure_scale, "wing: Cp", 0.14))
+    renderer.AddActor2D(bar(vorticity_scale, "spanwise\nvorticity [1/s]", 0.01))
+    renderer.AddActor2D(bar(pressure_scale, "wing\nCp", 0.14))
 
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
