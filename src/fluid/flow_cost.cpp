@@ -16,7 +16,7 @@ constexpr int kSteps = 5;             // that are timed, the best of them counts
 // Measured, docs/performance.md ("Cost model").
 constexpr double kBytesPerCell = 205;       // 19 fields, ghosts and padding
 constexpr double kBytesBeside = 60e6;       // program and libraries
-constexpr double kSetupRate = 3.0e10;       // n_w^3 a second: assembly and inverse
+constexpr double kSetupRate = 3.0e10;       // n^3 a second: assembly and inverse
 constexpr double kCapacitanceRate = 1.0e10; // bytes a second of the inverse, half of it read
 constexpr double kChainShare = 0.20;        // of a step's time in chains along z
 
@@ -52,18 +52,32 @@ FlowCost measureFlowCost(const Planform& planform, const Air& air) {
 }
 
 double flowMemory(const Grid& grid, int processes) {
-  const double faces = static_cast<double>(std::count(grid.wing.begin(), grid.wing.end(), 1));
+  const double n = static_cast<double>(capacitanceUnknowns(grid));
   const double plane = double(grid.x.n()) * grid.y.n();
   // Processes that touch the wing's plane hold its inverse; each stores two planes of neighbours.
   const double holders = std::min(processes, 2);
   return kBytesPerCell * (static_cast<double>(grid.cells()) + 3 * plane * processes) +
-         8 * faces * faces * holders + kBytesBeside * processes;
+         8 * n * n * holders + kBytesBeside * processes;
 }
 
-double capacitanceSetup(long wing_faces) { return std::pow(double(wing_faces), 3) / kSetupRate; }
+long capacitanceUnknowns(const Grid& grid) {
+  long unknowns = 0;
+  for (int j = 0; j < grid.y.n(); ++j) {
+    for (int i = 0; i < grid.x.n(); ++i) {
+      unknowns += grid.mobility.at(2, i, j, grid.k_wing) != 1;
+      for (int k = grid.k_wing - 1; k <= grid.k_wing; ++k) {
+        unknowns += grid.mobility.at(0, i, j, k) != 1;
+        unknowns += grid.mobility.at(1, i, j, k) != 1;
+      }
+    }
+  }
+  return unknowns;
+}
 
-double capacitanceEvaluation(long wing_faces) {
-  return 4 * std::pow(double(wing_faces), 2) / kCapacitanceRate;
+double capacitanceSetup(long unknowns) { return std::pow(double(unknowns), 3) / kSetupRate; }
+
+double capacitanceEvaluation(long unknowns) {
+  return 4 * std::pow(double(unknowns), 2) / kCapacitanceRate;
 }
 
 double parallelShare(int processes) {

@@ -87,16 +87,16 @@ void planSpeeds(const Case& c, RunPlan& plan) {
   plan.courant_limit = c.grid.courant_limit;
 }
 
-void planTime(const Case& c, RunPlan& plan) {
+void planTime(const Case& c, long unknowns, RunPlan& plan) {
   const FlowCost cost = measureFlowCost(c.insect.planform, c.air);
   const bool prescribed = c.free.count() == 0;
   plan.steps = c.time.steps;
   plan.evaluations = prescribed ? 1.0 : kEvaluationsFree;
   const double cells = static_cast<double>(plan.cells);
-  plan.setup_s = capacitanceSetup(plan.wing_faces);
+  plan.setup_s = capacitanceSetup(unknowns);
   plan.step_s = parallelShare(plan.ranks) * cells *
                     (cost.first + (plan.evaluations - 1) * cost.repeated) +
-                plan.evaluations * capacitanceEvaluation(plan.wing_faces);
+                plan.evaluations * capacitanceEvaluation(unknowns);
 }
 
 std::string bytesText(double bytes) {
@@ -129,7 +129,7 @@ RunPlan planRun(const Case& c, int ranks) {
   planSpeeds(c, plan);
   plan.memory = flowMemory(grid, ranks);
   plan.memory_left = availableMemory();
-  planTime(c, plan);
+  planTime(c, capacitanceUnknowns(grid), plan);
   return plan;
 }
 

@@ -17,9 +17,11 @@ FlowCost measureFlowCost(const Planform& planform, const Air& air);
 /// Bytes that the flow solver holds for a grid, on all processes together.
 double flowMemory(const Grid& grid, int processes);
 
-/// Wall time of the wing's capacitance system [s]: made once, and for one evaluation.
-double capacitanceSetup(long wing_faces);
-double capacitanceEvaluation(long wing_faces);
+/// Unknowns of the wing's capacitance system: its faces and those beside its rim.
+long capacitanceUnknowns(const Grid& grid);
+/// Wall time of that system [s]: made once, and for one evaluation.
+double capacitanceSetup(long unknowns);
+double capacitanceEvaluation(long unknowns);
 
 /// Time of a step on `processes` over that on one: the chains along z are not shared beyond two
 /// (docs/scaling.md).
