@@ -16,7 +16,7 @@ namespace {
 
 // The air flows faster round the wing's edges than the tip moves: largest Courant number of a
 // flight over that of the tip's speed, measured (docs/performance.md).
-constexpr double kFlowByTip = 1.3;
+constexpr double kFlowByTip = 1.6;
 // Evaluations of the air in a step with free coordinates (docs/coupling.md, `added_mass`).
 constexpr double kEvaluationsFree = 2.1;
 
