@@ -8,7 +8,7 @@ import unittest
 import flying
 
 KEYS = ("case", "fluid", "grid", "flaps", "steps_per_flap", "out", "rviz", "record", "ranks",
-        "in_process")
+        "fluid_node", "paused", "in_process")
 
 
 class WrongInput(flying.FlightTest):
