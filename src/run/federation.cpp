@@ -83,6 +83,7 @@ CoupledModel makeModel(const Case& c) {
     model.release = static_cast<std::uint32_t>(c.coupling.prescribed_steps) + 1;
   }
   model.surface_every = c.output.surface_every;
+  model.fields_every = c.output.fields_every;
   model.vortices_every = c.output.vortices_every;
   model.q_threshold = vortexThreshold(c);
   return model;
