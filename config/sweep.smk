@@ -1,4 +1,5 @@
 # Flights of a sweep (scripts/sweep) side by side: a folder runs/<name> for each case file cases/<name>.yaml, then a table.
+OPTIONS = config["options"] or ""  # of scripts/fly
 NAMES = glob_wildcards("cases/{name}.yaml").name
 
 
@@ -22,5 +23,5 @@ rule fly:
     shell:
         "rm -rf runs/{wildcards.name}; code=0; "
         "{config[root]}/scripts/fly case:={input} out:=runs/{wildcards.name} in_process:=true rviz:=false"
-        " {config[options]} > {log} 2>&1 || code=$?; "
+        " {OPTIONS} > {log} 2>&1 || code=$?; "
         "[ $code -ne 130 ] && [ -f {output} ] || {{ tail -n 3 {log} >&2; exit 1; }}"

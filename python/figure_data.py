@@ -67,6 +67,23 @@ def sweep(folder, case, masses, *options):
     return {f"{1e6 * mass:.2f} mg": found[mass] for mass in sorted(found)}
 
 
+def rendered(folder, flap, out):
+    """The picture of a run's flow at t/T = `flap` (scripts/render_field)."""
+    picture = out / f"fig9_{flap:.1f}.png"
+    command = [str(ROOT / "scripts/render_field"), str(folder), str(picture), f"flap:={flap}"]
+    if subprocess.run(command, check=False).returncode:
+        sys.exit(f"figures: {folder}: no picture of its flow; the reason is above")
+    return picture
+
+
+def distance_to_measured(flight_):
+    """rms distance of the body's path to the measured path of the thorax, both from their starts, as far as both go [m]."""
+    real, t = measured()["columns"], flight_["t"] - flight_["t"][0]
+    both = real["t"] <= t[-1]
+    gaps = [np.interp(real["t"][both], t, flight_[k] - flight_[k][0]) - (real[k][both] - real[k][0]) for k in ("x", "z")]
+    return math.sqrt(np.mean(gaps[0] ** 2 + gaps[1] ** 2))
+
+
 def markers():
     return reduction.read_markers(ROOT / "config/measured/monarch_markers.csv")
 

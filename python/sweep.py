@@ -13,9 +13,11 @@ import numpy as np
 import yaml
 
 import figure_data as data
+import marker_reduction as reduction
 
 COLUMNS = ("name", "status", "flaps", "steps not converged", "climb [deg]", "speed [m/s]", "theta_B mean [deg]", "theta_B swing [deg]",
-           "largest theta_B [deg]", "theta_R swing [deg]", "path to measured, rms [mm]")
+           "largest theta_B [deg]", "theta_R swing [deg]", "theta_R amplitude / measured", "theta_R phase - measured [deg]",
+           "theta_R to measured, rms [deg]", "path to measured, rms [mm]")
 
 
 def write_cases(case, over, out):
@@ -42,13 +44,16 @@ def write_cases(case, over, out):
             path.write_text(text, encoding="utf-8")
 
 
-def distance_to_measured(flight):
-    """rms distance of the body's path to the measured path of the thorax, both from their starts, as far as both go [m]."""
-    real = data.measured()["columns"]
-    t = flight["t"] - flight["t"][0]
-    both = real["t"] <= t[-1]
-    gaps = [np.interp(real["t"][both], t, flight[k] - flight[k][0]) - (real[k][both] - real[k][0]) for k in ("x", "z")]
-    return math.sqrt(np.mean(gaps[0] ** 2 + gaps[1] ** 2))
+def pitch_to_measured(flight, frequency):
+    """Wing pitch against the series of the measured flight, over the last whole flaps: ratio of the fundamentals'
+    amplitudes, how far ours is ahead [deg], rms difference [deg]."""
+    series = data.published()["theta_R_deg"]
+    steps = int(round(1 / frequency / (flight["t"][1] - flight["t"][0])))
+    whole = slice(len(flight["t"]) - (len(flight["t"]) - 1) // steps * steps, None)
+    t, ours = flight["t"][whole], np.degrees(flight["theta_R"][whole])
+    theirs = reduction.evaluate(series, t, frequency * series["multiple"])
+    a, b = (np.mean(theta * np.exp(-2j * np.pi * frequency * t)) for theta in (ours, theirs))
+    return abs(a / b), math.degrees(np.angle(a / b)), math.sqrt(np.mean((ours - theirs) ** 2))
 
 
 def row(summary):
@@ -65,14 +70,14 @@ def row(summary):
     theta_B, theta_R = np.degrees(part["theta_B"]), np.degrees(part["theta_R"])
     return (folder.name, told["status"], told["flaps"], told["unconverged_steps"], math.degrees(math.atan2(-dz, dx)),
             math.hypot(dx, dz) / (part["t"][-1] - part["t"][0]), theta_B.mean(), np.ptp(theta_B), np.abs(theta_B).max(),
-            np.ptp(theta_R), 1e3 * distance_to_measured(flight))
+            np.ptp(theta_R), *pitch_to_measured(part, case["motion"]["frequency"]), 1e3 * data.distance_to_measured(flight))
 
 
 def main():
     if len(sys.argv) == 5 and sys.argv[1] == "cases":
         write_cases(pathlib.Path(sys.argv[2]), sys.argv[3], pathlib.Path(sys.argv[4]))
     elif len(sys.argv) > 3 and sys.argv[1] == "table":
-        rows = [row(pathlib.Path(path)) for path in sys.argv[3:]]
+        rows = sorted((row(pathlib.Path(path)) for path in sys.argv[3:]), key=lambda one: float(one[0].rpartition("_")[2]))
         with open(sys.argv[2], "w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows([COLUMNS] + rows)
         for name, one in zip(COLUMNS, zip(*rows)):
