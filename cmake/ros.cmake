@@ -13,7 +13,7 @@ find_package(catkin REQUIRED COMPONENTS message_generation ${ROS_PACKAGES})
 
 add_message_files(DIRECTORY msg FILES CouplingKey.msg FlightState.msg Hello.msg IgnoredCounts.msg InterfaceState.msg
   ParticipantReply.msg ParticipantRequest.msg PressureFacet.msg StepIterations.msg SubIteration.msg
-  VortexSample.msg WingLoads.msg)
+  VortexSample.msg WholeFlow.msg WingLoads.msg)
 add_service_files(DIRECTORY srv FILES FlySteps.srv)
 add_action_files(DIRECTORY action FILES Fly.action)
 generate_messages(DEPENDENCIES actionlib_msgs std_msgs)

@@ -1,5 +1,7 @@
 #include "monarch_flight/ros_io/participant_node.h"
 
+#include <iostream>
+
 #include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
@@ -12,7 +14,10 @@ Case readCase(Role role) {
   XmlRpc::XmlRpcValue values = parametersOf(kNamespace);
   const RunParameters parameters = runParameters(values, std::string(kNamespace) + "/");
   const Case c = loadCase(parameters);
-  if (role == Role::kFluid) requireProcesses(parameters, c);
+  if (role == Role::kFluid) {
+    requireProcesses(parameters, c);
+    std::cout << plannedRun(parameters, c) << std::flush;
+  }
   return c;
 }
 

@@ -119,7 +119,8 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
       {"fluid", {"fluid", "solver"}},
       {"flaps", {"time", "flaps"}},
       {"steps_per_flap", {"time", "steps_per_flap"}},
-      {"record", {"output", "record"}}};
+      {"record", {"output", "record"}},
+      {"fields_every", {"output", "fields_every"}}};
   for (const auto& [key, value] : overrides) {
     if (key == "grid") {
       overrideGrid(root, value);
@@ -128,7 +129,7 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
     const auto target = known.find(key);
     if (target == known.end()) {
       faults.add(key + ":=" + value +
-                 " is not a known override: known are fluid, grid, flaps, steps_per_flap, record; "
+                 " is not a known override: known are fluid, grid, flaps, steps_per_flap, record, fields_every; "
                  "correct or remove it");
       continue;
     }

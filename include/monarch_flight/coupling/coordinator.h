@@ -58,6 +58,7 @@ class Coordinator {
   struct SetBack {};      // the control begins it again
 
   void start(const std::vector<StepSink*>& sinks);
+  void deliver(const std::vector<StepSink*>& sinks, CommittedStep& step);
   void startAgain(const std::vector<StepSink*>& sinks);
   static void heed(RunControl& control, const CommittedStep& out);
   ExchangeKey keyOf(std::uint32_t step, std::uint32_t iteration, Phase phase) const;
@@ -95,6 +96,7 @@ class Coordinator {
   Interface committed_;       // level n
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known
+  double outputs_s_ = 0.0;                 // wall time of the sinks so far
   // Running scales: largest of the recent past, at least what is worth noticing.
   double force_scale_ = 0.0, moment_scale_ = 0.0;
   CouplingVector increment_scales_ = CouplingVector::Zero();

@@ -26,6 +26,7 @@ class FlightRun {
 
  private:
   const Case& case_;
+  std::unique_ptr<StepSink> fields_;  // before the folder: a build without VTK refuses
   RunOutputs files_;
   std::unique_ptr<BagOutput> bag_;
   std::unique_ptr<MessageSink> messages_;
