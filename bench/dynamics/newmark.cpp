@@ -76,7 +76,7 @@ Eigen::Vector4d coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotio
   FlightParticipant flight(model);
   WingParticipant wing(model);
   LastStep sink;
-  const bool stop = false;
+  const StopFlag stop{false};
   const auto outcome = Coordinator(model, settings, fluid, flight, wing, 1).run({&sink}, stop);
   if (!outcome.complete) throw std::runtime_error("coupled flap: " + outcome.failure);
   const Interface& end = sink.last.interface;

@@ -51,23 +51,30 @@ Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& sett
       accelerator_(makeAccelerator(settings, step_model_)),
       cautious_(makeAccelerator(cautious(settings), step_model_)) {}
 
-CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, const bool& stop) {
+CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, const StopFlag& stop,
+                                Keeper* keeper) {
   CoupledOutcome outcome;
-  std::uint32_t step = 0;
+  std::uint32_t step = 0;  // the last one committed
   try {
-    start(sinks);
-    for (step = 1; step <= model_.steps; ++step) {
-      const CommittedStep committed = advance(step, stop);
+    start(sinks, keeper);
+    step = keeper ? keeper->resumed().value_or(0) : 0;
+    while (step < model_.steps) {
+      const CommittedStep committed = advance(step + 1, stop);
+      step = committed.step;
       for (StepSink* sink : sinks) sink->onStep(committed);
+      if (keeper && keeper->due(step, step == model_.steps)) keep(step, sinks, *keeper);
     }
     outcome.complete = true;
   } catch (const Interrupted&) {
-    outcome.failure = "interrupted in step " + std::to_string(step) + "; step " +
-                      std::to_string(step - 1) + " is the last one committed";
+    outcome.failure = "interrupted in step " + std::to_string(step + 1) + "; step " +
+                      std::to_string(step) + " is the last one committed" +
+                      rescue(step, sinks, keeper);
+  } catch (const StepFailure& e) {
+    outcome.failure = e.what() + rescue(step, sinks, keeper);
   } catch (const std::exception& e) {
     outcome.failure = e.what();
   }
-  abort(std::min(step, model_.steps));
+  abort(std::min(step + 1, model_.steps));
   for (StepSink* sink : sinks) {
     try {
       sink->onEnd(outcome.failure);
@@ -79,7 +86,7 @@ CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, const bool&
   return outcome;
 }
 
-void Coordinator::start(const std::vector<StepSink*>& sinks) {
+void Coordinator::start(const std::vector<StepSink*>& sinks, Keeper* keeper) {
   const auto begin = Clock::now();
   CommittedStep out;
   out.t = model_.time(0);
@@ -99,6 +106,7 @@ void Coordinator::start(const std::vector<StepSink*>& sinks) {
   force_scale_ = moment_scale_ = 0.0;
   increment_scales_.setZero();
   history_.fill(CouplingVector::Zero());
+  if (keeper && keeper->resumed()) return resume(*keeper);
   out.interface = request.interface;
   finish(Loads(), out);
   out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
@@ -106,20 +114,25 @@ void Coordinator::start(const std::vector<StepSink*>& sinks) {
   for (StepSink* sink : sinks) sink->onStep(out);
 }
 
-CommittedStep Coordinator::advance(std::uint32_t step, const bool& stop) {
+CommittedStep Coordinator::advance(std::uint32_t step, const StopFlag& stop) {
   const auto begin = Clock::now();
   CommittedStep out;
   out.step = step;
   out.t = model_.time(step);
   out.prescribed = static_cast<int>(step) <= settings_.prescribed_steps || model_.free.count() == 0;
+  before_.take([this](StateVisitor& state) { memory(state); });
   step_model_.begin(committed_, out.t);
 
   Evaluation last;
-  if (out.prescribed) {
-    if (stop) throw Interrupted();
-    last = evaluate(step_model_.prescribed(), false, out);
-  } else {
-    solve(stop, last, out);
+  try {
+    if (out.prescribed) {
+      if (stop) throw Interrupted();
+      last = evaluate(step_model_.prescribed(), false, out);
+    } else {
+      solve(stop, last, out);
+    }
+  } catch (const NumericalError& e) {
+    throw StepFailure(e.what());
   }
   commit(last, out);
   out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
@@ -127,7 +140,7 @@ CommittedStep Coordinator::advance(std::uint32_t step, const bool& stop) {
   return out;
 }
 
-void Coordinator::solve(const bool& stop, Evaluation& last, CommittedStep& out) {
+void Coordinator::solve(const StopFlag& stop, Evaluation& last, CommittedStep& out) {
   std::string error;
   if (attempt(*accelerator_, 1, stop, last, out, error)) return;
   accelerator_->forget();
@@ -139,7 +152,7 @@ void Coordinator::solve(const bool& stop, Evaluation& last, CommittedStep& out) 
 
 /// Returns whether it converged; `error` says what a solver complained of. A lost participant ends
 /// the run (ExchangeError): asking again would not bring it back.
-bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, const bool& stop,
+bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, const StopFlag& stop,
                           Evaluation& last, CommittedStep& out, std::string& error) {
   const std::size_t first = out.iterations.size();
   bool converged = false;
@@ -161,7 +174,7 @@ bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, const 
   return converged;
 }
 
-bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, const bool& stop,
+bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, const StopFlag& stop,
                            Evaluation& last, CommittedStep& out) {
   accelerator.beginStep(out.step);
   double first = 0.0;

@@ -24,7 +24,7 @@ RunParameters readParameters() {
 
 }  // namespace
 
-CoordinatorNode::CoordinatorNode(const bool& stop)
+CoordinatorNode::CoordinatorNode(const StopFlag& stop)
     : stop_(stop), parameters_(readParameters()), case_(loadCase(parameters_)), node_(kNamespace) {
   run_.id = randomRunId();
   run_.limits = limitsFor(case_.watchdog_s);

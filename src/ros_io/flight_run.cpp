@@ -21,7 +21,7 @@ FlightRun::FlightRun(const Case& c, const std::string& out, std::vector<MessageO
 }
 
 int FlightRun::fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
-                   const bool& stop) {
+                   const StopFlag& stop) {
   std::vector<StepSink*> sinks = {&progress_};
   if (messages_) sinks.push_back(messages_.get());
   sinks.push_back(&files_);  // the last: the summary then knows of the failures of the others

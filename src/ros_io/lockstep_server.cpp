@@ -20,7 +20,7 @@ std::tuple<std::uint32_t, std::uint8_t, std::uint32_t> order(const CouplingKey& 
 
 LockstepServer::LockstepServer(const ros::NodeHandle& node, const LockstepIdentity& identity,
                                Participant& participant, const LockstepLimits& limits,
-                               const bool& stop)
+                               const StopFlag& stop)
     : identity_(identity),
       participant_(participant),
       limits_(limits),

@@ -19,7 +19,7 @@
 namespace monarch_flight {
 namespace {
 
-bool stop_requested = false;
+StopFlag stop_requested{false};
 
 void requestStop(int) { stop_requested = true; }
 
@@ -60,7 +60,7 @@ std::string rosHome() {
 
 }  // namespace
 
-const bool& stopRequested() { return stop_requested; }
+const StopFlag& stopRequested() { return stop_requested; }
 
 int coordinatorMain(int argc, char** argv) {
   return nodeMain("coordinator", argc, argv, [] { return CoordinatorNode(stop_requested).run(); });

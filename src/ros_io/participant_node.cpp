@@ -27,7 +27,7 @@ Reply ParticipantOnStart::exchange(const Request& request) {
   return reply;
 }
 
-ParticipantNode::ParticipantNode(Role role, const bool& stop)
+ParticipantNode::ParticipantNode(Role role, const StopFlag& stop)
     : case_(readCase(role)),
       participant_(role, case_),
       server_(ros::NodeHandle(kNamespace), {role, case_.name, case_.sha256}, participant_,

@@ -157,6 +157,12 @@ void readOutput(Section section, Case& c) {
       section.fault(key, " = " + std::to_string(*value) + ": must be >= 0; 0 writes no pictures");
     }
   }
+  c.output.checkpoint_every =
+      section.integer("checkpoint_every", "steps between checkpoints, 0: none");
+  if (c.output.checkpoint_every < 0) {
+    section.fault("checkpoint_every", " = " + std::to_string(c.output.checkpoint_every) +
+                                          ": must be >= 0; 0 makes no checkpoints");
+  }
   section.finish();
 }
 

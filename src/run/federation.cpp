@@ -8,6 +8,7 @@
 #include "monarch_flight/coupling/participants.h"
 #include "monarch_flight/fluid/navier_stokes.h"
 #include "monarch_flight/fluid/quasi_steady.h"
+#include "monarch_flight/run/kept_participant.h"
 
 namespace monarch_flight {
 namespace {
@@ -19,6 +20,10 @@ class SinkChain : public StepSink {
 
   void onStep(const CommittedStep& step) override {
     for (StepSink* sink : sinks_) sink->onStep(step);
+  }
+
+  void onCheckpoint(StateVisitor& state) override {
+    for (StepSink* sink : sinks_) sink->onCheckpoint(state);
   }
 
   void onEnd(const std::string& failure) override {
@@ -58,6 +63,13 @@ double vortexThreshold(const Case& c) {
   return 0.1 * std::pow(speed / c.insect.planform.meanChord(), 2);
 }
 
+std::unique_ptr<SolverParticipant> makeSolver(Role role, const Case& c) {
+  const CoupledModel model = makeModel(c);
+  if (role == Role::kFluid) return std::make_unique<FluidParticipant>(model, makeFluid(c));
+  if (role == Role::kFlight) return std::make_unique<FlightParticipant>(model);
+  return std::make_unique<WingParticipant>(model);
+}
+
 }  // namespace
 
 std::unique_ptr<FluidModel> makeFluid(const Case& c) {
@@ -81,33 +93,33 @@ CoupledModel makeModel(const Case& c) {
   return model;
 }
 
-std::unique_ptr<Participant> makeParticipant(Role role, const Case& c) {
-  const CoupledModel model = makeModel(c);
-  if (role == Role::kFluid) return std::make_unique<FluidParticipant>(model, makeFluid(c));
-  if (role == Role::kFlight) return std::make_unique<FlightParticipant>(model);
-  return std::make_unique<WingParticipant>(model);
+std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
+                                             const std::string& checkpoints) {
+  return std::make_unique<KeptParticipant>(role, makeSolver(role, c), checkpoints);
 }
 
 RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
-                  Participant& wing, const std::vector<StepSink*>& sinks, const bool& stop) {
+                  Participant& wing, const std::vector<StepSink*>& sinks, const StopFlag& stop,
+                  Keeper* keeper) {
   SinkChain chain(sinks);
   Coordinator coordinator(makeModel(c), c.coupling, fluid, flight, wing, run_id);
-  const CoupledOutcome outcome = coordinator.run({&chain}, stop);
+  const CoupledOutcome outcome = coordinator.run({&chain}, stop, keeper);
   RunResult result;
   result.failure = chain.failure().empty() ? outcome.failure : chain.failure();
   result.complete = outcome.complete && result.failure.empty();
   return result;
 }
 
-InProcessFederation::InProcessFederation(const Case& c) : case_(c) {
+InProcessFederation::InProcessFederation(const Case& c, const std::string& checkpoints)
+    : case_(c) {
   for (Role role : {Role::kFluid, Role::kFlight, Role::kWing})
-    participants_[static_cast<std::size_t>(role)] = makeParticipant(role, c);
+    participants_[static_cast<std::size_t>(role)] = makeParticipant(role, c, checkpoints);
 }
 
 RunResult InProcessFederation::run(std::uint64_t run_id, const std::vector<StepSink*>& sinks,
-                                   const bool& stop) {
+                                   const StopFlag& stop, Keeper* keeper) {
   return runCase(case_, run_id, *participants_[0], *participants_[1], *participants_[2], sinks,
-                 stop);
+                 stop, keeper);
 }
 
 }  // namespace monarch_flight

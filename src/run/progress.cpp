@@ -66,7 +66,8 @@ std::string ProgressSink::line(const CommittedStep& step) const {
   }
   std::snprintf(rest, sizeof rest, "step %u/%u  sub-iterations %zu  left ", step.step, time_.steps,
                 step.iterations.size());
-  return text + rest + clock(elapsed * (1.0 - done) / done);
+  const double flown = step.step - first_, left = time_.steps - step.step;
+  return text + rest + clock(elapsed * left / std::max(flown, 1.0));
 }
 
 }  // namespace monarch_flight

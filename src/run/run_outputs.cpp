@@ -1,5 +1,7 @@
 #include "monarch_flight/run/run_outputs.h"
 
+#include <cstdio>
+
 namespace monarch_flight {
 namespace {
 
@@ -22,12 +24,27 @@ void collect(std::string& failure, Action action) {
 
 }  // namespace
 
-RunOutputs::RunOutputs(const Case& c, const std::string& directory)
-    : directory_(directory, estimatedOutputBytes(c)),
-      flight_(directory_.file("flight.csv")),
-      iterations_(directory_.file("iterations.csv")),
+RunOutputs::RunOutputs(const Case& c, const std::string& directory, StateVisitor* resumed)
+    : directory_(directory, estimatedOutputBytes(c), resumed != nullptr),
+      flight_(directory_.file("flight.csv"), resumed),
+      iterations_(directory_.file("iterations.csv"), resumed),
       summary_(c) {
   writeWhole(directory_.file("case.yaml"), c.resolved_yaml);
+  std::remove(directory_.file("summary.json").c_str());  // of the part flown before
+}
+
+RunOutputs::RunOutputs(const Case& c, const std::string& directory)
+    : RunOutputs(c, directory, nullptr) {}
+
+RunOutputs::RunOutputs(const Case& c, const std::string& directory, Checkpoints& checkpoints)
+    : RunOutputs(c, directory, checkpoints.outputs()) {
+  if (checkpoints.resumption()) summary_.resume(*checkpoints.outputs(), *checkpoints.resumption());
+}
+
+void RunOutputs::onCheckpoint(StateVisitor& state) {
+  flight_.onCheckpoint(state);
+  iterations_.onCheckpoint(state);
+  summary_.onCheckpoint(state);
 }
 
 void RunOutputs::onStep(const CommittedStep& step) {

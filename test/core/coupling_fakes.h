@@ -186,7 +186,7 @@ struct Federation {
   std::unique_ptr<Participant> fluid_solver, flight_solver, wing_solver;
   std::unique_ptr<Recorder> fluid, flight, wing;
   KeepingSink sink;
-  bool stop = false;
+  StopFlag stop{false};
 };
 
 }  // namespace testing

@@ -38,7 +38,7 @@ class Recorder : public StepSink {
   int ends = 0;
 };
 
-RunResult fly(const Case& c, std::vector<StepSink*> sinks, const bool& stop = false) {
+RunResult fly(const Case& c, std::vector<StepSink*> sinks, const StopFlag& stop = false) {
   InProcessFederation federation(c);
   return federation.run(7, sinks, stop);
 }
@@ -193,7 +193,7 @@ TEST(Federation, SinkThatFailsAtTheEndIsKnownToThoseBehindIt) {
 TEST(Federation, StopEndsTheRunBeforeItsFirstStep) {
   const Case c = quasiSteady("climb", {{"flaps", "1"}, {"steps_per_flap", "200"}});
   Recorder r;
-  const bool stop = true;
+  const StopFlag stop{true};
   const RunResult result = fly(c, {&r}, stop);
   EXPECT_FALSE(result.complete);
   EXPECT_NE(result.failure.find("interrupted"), std::string::npos) << result.failure;

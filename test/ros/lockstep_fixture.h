@@ -115,7 +115,7 @@ class Lockstep : public testing::Test {
   LockstepIdentity fluid{Role::kFluid, "climb", kSha};
   LockstepLimits server_limits = shortLimits();
   ros::NodeHandle node;
-  bool stop = false, server_stop = false;
+  StopFlag stop{false}, server_stop{false};
   LockstepRun run;
   ScriptedSolver solver;
   std::unique_ptr<LockstepServer> server;

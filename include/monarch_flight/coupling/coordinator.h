@@ -6,10 +6,12 @@
 
 #include "monarch_flight/coupling/accelerator.h"
 #include "monarch_flight/coupling/interface_balance.h"
+#include "monarch_flight/coupling/keeper.h"
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/settings.h"
 #include "monarch_flight/coupling/step_model.h"
+#include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
 
@@ -44,8 +46,11 @@ class Coordinator {
 
   /// Runs all steps; level 0 is delivered first. `stop` is polled between sub-iterations. Never
   /// throws for a failed run: participants get ABORT, sinks get onEnd(failure), and the outcome
-  /// says why.
-  CoupledOutcome run(const std::vector<StepSink*>& sinks, const bool& stop);
+  /// says why. With a `keeper`, checkpoints are made of the steps that it names, of the last one,
+  /// and of the last committed one when the run is interrupted or a step fails; a resumed run goes
+  /// on behind the keeper's step, bit for bit as if it had never ended.
+  CoupledOutcome run(const std::vector<StepSink*>& sinks, const StopFlag& stop,
+                     Keeper* keeper = nullptr);
 
  private:
   struct Evaluation {  // one sub-iteration
@@ -54,13 +59,21 @@ class Coordinator {
     Interface answer;  // w~^k
   };
   struct Interrupted {};  // `stop` was seen
+  class StepFailure : public NumericalError {  // no solver has committed the step
+   public:
+    using NumericalError::NumericalError;
+  };
 
-  void start(const std::vector<StepSink*>& sinks);
-  CommittedStep advance(std::uint32_t step, const bool& stop);
-  void solve(const bool& stop, Evaluation& last, CommittedStep& out);
-  bool attempt(Accelerator& accelerator, std::uint32_t number, const bool& stop, Evaluation& last,
+  void start(const std::vector<StepSink*>& sinks, Keeper* keeper);
+  void resume(Keeper& keeper);
+  void memory(StateVisitor& state);
+  void keep(std::uint32_t step, const std::vector<StepSink*>& sinks, Keeper& keeper);
+  std::string rescue(std::uint32_t step, const std::vector<StepSink*>& sinks, Keeper* keeper);
+  CommittedStep advance(std::uint32_t step, const StopFlag& stop);
+  void solve(const StopFlag& stop, Evaluation& last, CommittedStep& out);
+  bool attempt(Accelerator& accelerator, std::uint32_t number, const StopFlag& stop, Evaluation& last,
                CommittedStep& out, std::string& error);
-  bool converge(Accelerator& accelerator, CouplingVector d, const bool& stop, Evaluation& last,
+  bool converge(Accelerator& accelerator, CouplingVector d, const StopFlag& stop, Evaluation& last,
                 CommittedStep& out);
   Evaluation evaluate(const Interface& guess, bool want_operator, CommittedStep& out);
   void judge(const std::optional<Loads>& expected, Evaluation& evaluation, CommittedStep& out);
@@ -87,6 +100,7 @@ class Coordinator {
   Matrix6d added_mass_ = Matrix6d::Zero();  // of the fluid, for the ratio
   int operator_cost_ = 0;                   // of the fluid, in evaluations
   Interface committed_;       // level n
+  StateSnapshot before_;                   // memory of level n, for a step that does not end well
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known
   // Running scales: largest of the recent past, at least what is worth noticing.

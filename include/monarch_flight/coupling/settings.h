@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "monarch_flight/coupling/state_visitor.h"
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/insect/newmark.h"
 #include "monarch_flight/insect/state.h"
@@ -71,6 +72,9 @@ class StepSink {
  public:
   virtual ~StepSink() = default;
   virtual void onStep(const CommittedStep& step) = 0;
+  /// A checkpoint is made: makes durable what has been written so far, and shows how to go on from
+  /// here. A sink that goes on from a checkpoint is made with what it has shown.
+  virtual void onCheckpoint(StateVisitor&) {}
   /// The run is over; `failure` is empty after a complete run. Called exactly once.
   virtual void onEnd(const std::string& failure) = 0;
 };

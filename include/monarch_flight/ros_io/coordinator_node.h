@@ -13,7 +13,7 @@ namespace monarch_flight {
 class CoordinatorNode {
  public:
   /// Reads and checks the parameters of /monarch_flight. Throws InputError.
-  explicit CoordinatorNode(const bool& stop);
+  explicit CoordinatorNode(const StopFlag& stop);
   /// Runs the whole case; returns an exit code. Throws InputError, ExchangeError, OutputError for
   /// what goes wrong before the first step.
   int run();
@@ -23,7 +23,7 @@ class CoordinatorNode {
   void dismiss() noexcept;
   void reportIgnored() const;
 
-  const bool& stop_;
+  const StopFlag& stop_;
   RunParameters parameters_;
   Case case_;
   ros::NodeHandle node_;

@@ -19,7 +19,7 @@ class FlightRun {
   FlightRun(const Case& c, const std::string& out, std::vector<MessageOutput*> listeners);
   /// Flies; prints the end; returns an exit code.
   int fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
-          const bool& stop);
+          const StopFlag& stop);
 
  private:
   const Case& case_;

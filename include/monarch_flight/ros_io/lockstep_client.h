@@ -16,7 +16,7 @@ struct LockstepRun {
   ros::CallbackQueue queue;  ///< of all connections: whoever waits also sees the others get lost
   std::uint64_t id = 0;
   LockstepLimits limits;
-  const bool* stop = nullptr;                       ///< ends every wait when it becomes true
+  const StopFlag* stop = nullptr;                       ///< ends every wait when it becomes true
   std::vector<const RosParticipant*> participants;  ///< registered by their constructors
 };
 

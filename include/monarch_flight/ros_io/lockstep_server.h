@@ -14,7 +14,7 @@ class LockstepServer {
  public:
   /// `participant` and `stop` must outlive this. `stop` ends every wait.
   LockstepServer(const ros::NodeHandle& node, const LockstepIdentity& identity,
-                 Participant& participant, const LockstepLimits& limits, const bool& stop);
+                 Participant& participant, const LockstepLimits& limits, const StopFlag& stop);
 
   /// Serves one run, until the coordinator has ended it (ABORT) and left. Throws ExchangeError: no
   /// coordinator within connect_s, disagreement in the handshake, coordinator lost or silent for
@@ -35,7 +35,7 @@ class LockstepServer {
   LockstepIdentity identity_;
   Participant& participant_;
   LockstepLimits limits_;
-  const bool& stop_;
+  const StopFlag& stop_;
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   WatchedPublisher<Hello> hello_out_;

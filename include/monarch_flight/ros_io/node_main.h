@@ -10,7 +10,7 @@ namespace monarch_flight {
 enum ExitCode { kExitComplete = 0, kExitFailed = 1, kExitInput = 2, kExitInterrupted = 130 };
 
 /// True once SIGINT or SIGTERM has come; set by the handlers that the mains below install.
-const bool& stopRequested();
+const StopFlag& stopRequested();
 
 /// Mains of the executables: read, check, wire, run; return the exit code and print every failure
 /// as one message on stderr.

@@ -25,7 +25,7 @@ class ParticipantOnStart : public Participant {
 class ParticipantNode {
  public:
   /// Reads and checks the parameters of /monarch_flight. Throws InputError.
-  ParticipantNode(Role role, const bool& stop);
+  ParticipantNode(Role role, const StopFlag& stop);
   /// Returns an exit code. Throws ExchangeError (see LockstepServer::serve).
   int run();
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "monarch_flight/run/checkpoints.h"
 #include "monarch_flight/run/csv_tables.h"
 #include "monarch_flight/run/run_directory.h"
 #include "monarch_flight/run/summary.h"
@@ -16,15 +17,22 @@ class RunOutputs : public StepSink {
  public:
   /// Makes the folder. Throws InputError (see RunDirectory) and OutputError.
   RunOutputs(const Case& c, const std::string& directory);
+  /// The same, or goes on from the checkpoint that `checkpoints` has chosen: the tables are cut to
+  /// its length. Throws CheckpointError too.
+  RunOutputs(const Case& c, const std::string& directory, Checkpoints& checkpoints);
 
   /// Throws OutputError, which ends the run.
   void onStep(const CommittedStep& step) override;
   /// Throws OutputError when a file could not be finished; all others are finished nevertheless.
   void onEnd(const std::string& failure) override;
+  /// Throws OutputError.
+  void onCheckpoint(StateVisitor& state) override;
 
   const RunDirectory& directory() const { return directory_; }
 
  private:
+  RunOutputs(const Case& c, const std::string& directory, StateVisitor* resumed);
+
   RunDirectory directory_;
   FlightTable flight_;
   IterationTable iterations_;
