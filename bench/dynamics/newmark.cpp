@@ -54,6 +54,7 @@ class ConsistentStart : public PrescribedMotion {
 class LastStep : public StepSink {
  public:
   void onStep(const CommittedStep& step) override { last = step; }
+  void onReset() override {}
   void onEnd(const std::string& failure) override { why = failure; }
   CommittedStep last;
   std::string why;
@@ -77,7 +78,8 @@ Eigen::Vector4d coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotio
   WingParticipant wing(model);
   LastStep sink;
   const StopFlag stop{false};
-  const auto outcome = Coordinator(model, settings, fluid, flight, wing, 1).run({&sink}, stop);
+  FlyUntil control(stop);
+  const auto outcome = Coordinator(model, settings, fluid, flight, wing, 1).run({&sink}, control);
   if (!outcome.complete) throw std::runtime_error("coupled flap: " + outcome.failure);
   const Interface& end = sink.last.interface;
   return {end.body.x.x(), end.body.x.z(), end.body.pitch.q, end.theta_R.q};

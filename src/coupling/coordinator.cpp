@@ -51,26 +51,31 @@ Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& sett
       accelerator_(makeAccelerator(settings, step_model_)),
       cautious_(makeAccelerator(cautious(settings), step_model_)) {}
 
-CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, const StopFlag& stop,
+CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, RunControl& control,
                                 Keeper* keeper) {
+  sinks_ = sinks;
+  keeper_ = keeper;
   CoupledOutcome outcome;
   std::uint32_t step = 0;  // the last one committed
   try {
-    start(sinks, keeper);
-    step = keeper ? keeper->resumed().value_or(0) : 0;
+    step = start();
     while (step < model_.steps) {
-      const CommittedStep committed = advance(step + 1, stop);
-      step = committed.step;
-      for (StepSink* sink : sinks) sink->onStep(committed);
-      if (keeper && keeper->due(step, step == model_.steps)) keep(step, sinks, *keeper);
+      try {
+        const CommittedStep committed = advance(step + 1, control);
+        step = committed.step;
+        deliver(committed);
+        if (keeper_ && keeper_->due(step, step == model_.steps)) keep(step);
+      } catch (const SetBack&) {
+        startAgain();
+        step = 0;
+      }
     }
     outcome.complete = true;
   } catch (const Interrupted&) {
     outcome.failure = "interrupted in step " + std::to_string(step + 1) + "; step " +
-                      std::to_string(step) + " is the last one committed" +
-                      rescue(step, sinks, keeper);
+                      std::to_string(step) + " is the last one committed" + rescue(step);
   } catch (const StepFailure& e) {
-    outcome.failure = e.what() + rescue(step, sinks, keeper);
+    outcome.failure = e.what() + rescue(step);
   } catch (const std::exception& e) {
     outcome.failure = e.what();
   }
@@ -86,13 +91,14 @@ CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, const StopF
   return outcome;
 }
 
-void Coordinator::start(const std::vector<StepSink*>& sinks, Keeper* keeper) {
+/// Returns the step that the run goes on from, 0 for a new one.
+std::uint32_t Coordinator::start() {
   const auto begin = Clock::now();
   CommittedStep out;
   out.t = model_.time(0);
   out.prescribed = true;
   Request request;
-  request.key = {run_id_, 0, 0, Phase::kStart};
+  request.key = keyOf(0, 0, Phase::kStart);
   request.t = out.t;
   request.interface = model_.prescribed(out.t);
   for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
@@ -106,15 +112,46 @@ void Coordinator::start(const std::vector<StepSink*>& sinks, Keeper* keeper) {
   force_scale_ = moment_scale_ = 0.0;
   increment_scales_.setZero();
   history_.fill(CouplingVector::Zero());
-  if (keeper && keeper->resumed()) return resume(*keeper);
+  if (keeper_ && keeper_->resumed()) {
+    resume();
+    return *keeper_->resumed();
+  }
   out.interface = request.interface;
   finish(Loads(), out);
   out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
                    out.wall_s[1] - out.wall_s[2];
-  for (StepSink* sink : sinks) sink->onStep(out);
+  deliver(out);
+  return 0;
 }
 
-CommittedStep Coordinator::advance(std::uint32_t step, const StopFlag& stop) {
+void Coordinator::startAgain() {
+  ++resets_;
+  for (StepSink* sink : sinks_) sink->onReset();
+  if (keeper_) keeper_->reset();
+  start();
+}
+
+void Coordinator::deliver(const CommittedStep& step) {
+  for (StepSink* sink : sinks_) sink->onStep(step);
+}
+
+/// Asks who leads the run before the next sub-iteration of `out`.
+void Coordinator::heed(RunControl& control, const CommittedStep& out) {
+  while (true) {
+    switch (control.next(out.step, static_cast<std::uint32_t>(out.iterations.size()))) {
+      case RunControl::Order::kGoOn:
+        return;
+      case RunControl::Order::kStop:
+        throw Interrupted();
+      case RunControl::Order::kReset:
+        throw SetBack();
+      case RunControl::Order::kCheckpoint:
+        keepBeforeStep(out.step);
+    }
+  }
+}
+
+CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
   const auto begin = Clock::now();
   CommittedStep out;
   out.step = step;
@@ -126,10 +163,10 @@ CommittedStep Coordinator::advance(std::uint32_t step, const StopFlag& stop) {
   Evaluation last;
   try {
     if (out.prescribed) {
-      if (stop) throw Interrupted();
+      heed(control, out);
       last = evaluate(step_model_.prescribed(), false, out);
     } else {
-      solve(stop, last, out);
+      solve(control, last, out);
     }
   } catch (const NumericalError& e) {
     throw StepFailure(e.what());
@@ -140,25 +177,25 @@ CommittedStep Coordinator::advance(std::uint32_t step, const StopFlag& stop) {
   return out;
 }
 
-void Coordinator::solve(const StopFlag& stop, Evaluation& last, CommittedStep& out) {
+void Coordinator::solve(RunControl& control, Evaluation& last, CommittedStep& out) {
   std::string error;
-  if (attempt(*accelerator_, 1, stop, last, out, error)) return;
+  if (attempt(*accelerator_, 1, control, last, out, error)) return;
   accelerator_->forget();
   cautious_->forget();
-  if (!attempt(*cautious_, 2, stop, last, out, error)) {
+  if (!attempt(*cautious_, 2, control, last, out, error)) {
     throw NumericalError(notConverged(out, error));
   }
 }
 
 /// Returns whether it converged; `error` says what a solver complained of. A lost participant ends
 /// the run (ExchangeError): asking again would not bring it back.
-bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, const StopFlag& stop,
+bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, RunControl& control,
                           Evaluation& last, CommittedStep& out, std::string& error) {
   const std::size_t first = out.iterations.size();
   bool converged = false;
   try {
     converged =
-        converge(accelerator, number == 1 ? predictedIncrements() : history_[0], stop, last, out);
+        converge(accelerator, number == 1 ? predictedIncrements() : history_[0], control, last, out);
   } catch (const NumericalError& e) {
     error = e.what();
     IterationRecord failed;  // its number is used up: a key never means two requests
@@ -174,13 +211,13 @@ bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, const 
   return converged;
 }
 
-bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, const StopFlag& stop,
+bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, RunControl& control,
                            Evaluation& last, CommittedStep& out) {
   accelerator.beginStep(out.step);
   double first = 0.0;
   std::optional<Loads> expected;
   for (int k = 0; k < settings_.max_sub_iterations; ++k) {
-    if (stop) throw Interrupted();
+    heed(control, out);
     last = evaluate(step_model_.interface(d), accelerator.wantsOperator(operator_cost_), out);
     last.trial.d = d;
     judge(expected, last, out);
@@ -217,14 +254,19 @@ Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, bool want_
                                               CommittedStep& out) {
   Evaluation evaluation;
   Request& request = evaluation.request;
-  request.key = {run_id_, out.step, static_cast<std::uint32_t>(out.iterations.size()),
-                 Phase::kIterate};
+  request.key =
+      keyOf(out.step, static_cast<std::uint32_t>(out.iterations.size()), Phase::kIterate);
   request.t = out.t;
   request.interface = guess;
 
   Request to_fluid = request;
   to_fluid.want_operator = want_operator;
   const Reply air = ask(Role::kFluid, to_fluid, out);
+  if (want_operator && !air.jacobian) {
+    throw ExchangeError(
+        "the fluid did not answer with its load operator, which coupling/relaxation = added_mass "
+        "needs: let it answer, or take iqn_ils");
+  }
   out.fluid_evaluations += 1 + (want_operator ? operator_cost_ : 0);
   evaluation.trial.jacobian = air.jacobian;
   Request with_loads = request;
@@ -270,6 +312,7 @@ void Coordinator::balance(const Evaluation& last, CommittedStep& out) const {
 }
 
 void Coordinator::finish(const Loads& loads, CommittedStep& out) {
+  for (const Participant* participant : participants_) out.ignored += participant->ignored();
   out.loads = loads;
   out.angles = model_.angles(out.t, out.interface.theta_R);
   const double beta = model_.insect.beta;
@@ -289,13 +332,17 @@ void Coordinator::finish(const Loads& loads, CommittedStep& out) {
 
 void Coordinator::abort(std::uint32_t step) noexcept {
   Request request;
-  request.key = {run_id_, step, 0, Phase::kAbort};
+  request.key = keyOf(step, 0, Phase::kAbort);
   for (Participant* participant : participants_) {
     try {
       participant->exchange(request);
     } catch (...) {  // the run is over; who cannot hear it has its own watchdog
     }
   }
+}
+
+ExchangeKey Coordinator::keyOf(std::uint32_t step, std::uint32_t iteration, Phase phase) const {
+  return {run_id_, step, iteration, phase, resets_};
 }
 
 Reply Coordinator::ask(Role role, const Request& request, CommittedStep& out) {

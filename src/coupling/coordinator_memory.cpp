@@ -23,36 +23,47 @@ void Coordinator::memory(StateVisitor& state) {
   if (kind == settings_.relaxation) accelerator_->memory(state);
 }
 
-void Coordinator::keep(std::uint32_t step, const std::vector<StepSink*>& sinks, Keeper& keeper) {
-  keeper.open(step);
+void Coordinator::keep(std::uint32_t step) {
+  keeper_->open(step);
   CommittedStep unused;
   Request request;
-  request.key = {run_id_, step, 0, Phase::kCheckpoint};
+  request.key = keyOf(step, 0, Phase::kCheckpoint);
   for (Role role : kRoles) ask(role, request, unused);
-  keeper.close(step, [&](StateVisitor& state) {
+  keeper_->close(step, [this](StateVisitor& state) {
     memory(state);
-    for (StepSink* sink : sinks) sink->onCheckpoint(state);
+    for (StepSink* sink : sinks_) sink->onCheckpoint(state);
   });
 }
 
-void Coordinator::resume(Keeper& keeper) {
+/// In the middle of a step: the solvers still stand at the last committed one, and `before_` holds
+/// what the coordinator knew then.
+void Coordinator::keepBeforeStep(std::uint32_t step) {
+  if (!keeper_ || keeper_->settled(step - 1)) return;
+  const auto show = [this](StateVisitor& state) { memory(state); };
+  StateSnapshot now;
+  now.take(show);
+  before_.putBack(show);
+  keep(step - 1);
+  now.putBack(show);
+}
+
+/// Takes up the state of the keeper's step; the run has been started.
+void Coordinator::resume() {
   CommittedStep unused;
   Request request;
-  request.key = {run_id_, *keeper.resumed(), 0, Phase::kRestore};
+  request.key = keyOf(*keeper_->resumed(), 0, Phase::kRestore);
   for (Role role : kRoles) ask(role, request, unused);
-  keeper.load([this](StateVisitor& state) { memory(state); });
+  keeper_->load([this](StateVisitor& state) { memory(state); });
 }
 
 /// Keeps the last committed step of a run that ends before its time; says what came of it.
-std::string Coordinator::rescue(std::uint32_t step, const std::vector<StepSink*>& sinks,
-                                Keeper* keeper) {
-  if (!keeper || keeper->settled(step)) return "";
+std::string Coordinator::rescue(std::uint32_t step) {
+  if (!keeper_) return "";
   try {
-    before_.putBack([this](StateVisitor& state) { memory(state); });
-    keep(step, sinks, *keeper);
-    return "; checkpoint of step " + std::to_string(step) + " made";
+    keepBeforeStep(step + 1);
+    return "";
   } catch (const std::exception& e) {
-    return "; no checkpoint of step " + std::to_string(step) + ": " + e.what();
+    return "; no checkpoint of it: " + std::string(e.what());
   }
 }
 

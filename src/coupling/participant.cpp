@@ -32,4 +32,19 @@ const char* phaseName(Phase phase) {
   return "unknown phase";
 }
 
+std::string IgnoredMessages::describe() const {
+  return std::to_string(late) + " late, " + std::to_string(repeated) + " repeated, " +
+         std::to_string(foreign) + " foreign, " + std::to_string(malformed) + " malformed, " +
+         std::to_string(forged) + " forged";
+}
+
+IgnoredMessages& IgnoredMessages::operator+=(const IgnoredMessages& o) {
+  late += o.late;
+  repeated += o.repeated;
+  foreign += o.foreign;
+  malformed += o.malformed;
+  forged += o.forged;
+  return *this;
+}
+
 }  // namespace monarch_flight

@@ -1,5 +1,5 @@
-// Setting up, coefficients and right side; the factors are solved in momentum_plane.cpp (x, y) and
-// momentum_normal.cpp (z).
+// Setting up, right side and the order of things; coefficients in momentum_coefficients.cpp, the
+// factors are solved in momentum_plane.cpp (x, y) and momentum_normal.cpp (z).
 #include "fluid/momentum.h"
 
 #include <algorithm>
@@ -84,9 +84,13 @@ Momentum::Momentum(const Grid& grid, const Layout& layout, const Slab& slab)
   }
   wing_plane_.assign(layout.sz, 0.0);
   const std::size_t lines = std::max({layout.nx, layout.ny, layout.nz}) + 8;
-  for (Array* row : {&lower_, &upper_, &wall_diagonal_, &wall_side_, &zero_, &x_above_, &x_below_})
+  for (Array* row : {&lower_, &upper_, &wall_diagonal_, &wall_side_, &zero_, &x_above_, &x_below_,
+                     &x_central_[0], &x_central_[1], &y_central_[0], &y_central_[1]})
     row->assign(layout.sy, 0.0);
-  for (Array* rows : {&y_above_, &y_below_}) rows->assign(2 * layout.sy, 0.0);
+  for (YFaces* faces : {&y_central_faces_, &y_factor_faces_}) {
+    faces->above.assign(2 * layout.sy, 0.0);
+    faces->below.assign(2 * layout.sy, 0.0);
+  }
   for (Array* block : {&x_lower_, &x_upper_, &y_lower_, &y_upper_, &lane_lower_, &lane_upper_,
                        &lane_gamma_, &lane_side_})
     block->assign(kLines * layout.sy, 0.0);
@@ -107,78 +111,6 @@ double Momentum::position(int component, int direction, int index) const {
   return component == direction ? axis.face[index] : axis.centre[index];
 }
 
-/// Stencils of the lower faces, along y or z, of the points of row (j, k).
-void Momentum::rowFaces(const Velocity& c, int component, int direction, int j, int k,
-                        double* __restrict above, double* __restrict below) const {
-  const std::ptrdiff_t o = -layout_.stride(component == direction ? direction : component);
-  const double* __restrict f = c.c[direction].data() + layout_.at(0, j, k);
-  const double inv_dist = metric_[component][direction].inverse_distance[direction == 1 ? j : k];
-  const FaceStencil stencil(step_);
-  for (int i = first(component, 0), end = last(component, 0); i <= end; ++i)
-    stencil(0.5 * (f[i] + f[i + o]), inv_dist, above[i], below[i]);
-}
-
-void Momentum::coefficientsX(const Velocity& c, int component, int j, int k, Row row) {
-  const std::ptrdiff_t o = -layout_.stride(component);
-  const double* __restrict f = c.c[0].data() + layout_.at(0, j, k);
-  const double* __restrict inv_dist = metric_[component][0].inverse_distance.data();
-  const double* __restrict iw = metric_[component][0].inverse_width.data();
-  double* __restrict above = x_above_.data();
-  double* __restrict below = x_below_.data();
-  double* __restrict lower = row.lower;
-  double* __restrict upper = row.upper;
-  const int i0 = first(component, 0), i1 = last(component, 0);
-  const FaceStencil stencil(step_);
-  for (int i = i0; i <= i1 + 1; ++i)
-    stencil(0.5 * (f[i] + f[i + o]), inv_dist[i], above[i], below[i]);
-  for (int i = i0; i <= i1; ++i) {
-    lower[i] = -iw[i] * above[i];
-    upper[i] = iw[i] * below[i + 1];
-  }
-}
-
-/// Rows of a plane come in ascending order: the upper faces of one are the lower faces of the next.
-void Momentum::coefficientsY(const Velocity& c, int component, int j, int k, Row row) {
-  const std::ptrdiff_t here = (j % 2) * layout_.sy, next = layout_.sy - here;
-  if (j == first(component, 1))
-    rowFaces(c, component, 1, j, k, y_above_.data() + here, y_below_.data() + here);
-  rowFaces(c, component, 1, j + 1, k, y_above_.data() + next, y_below_.data() + next);
-  const double* __restrict above = y_above_.data() + here;
-  const double* __restrict below = y_below_.data() + next;
-  double* __restrict lower = row.lower;
-  double* __restrict upper = row.upper;
-  const double iw = metric_[component][1].inverse_width[j];
-  for (int i = first(component, 0), end = last(component, 0); i <= end; ++i) {
-    lower[i] = -iw * above[i];
-    upper[i] = iw * below[i];
-  }
-}
-
-/// The stencil, `above` or `below`, of the face behind row (j, k) on the way upwards or downwards.
-void Momentum::faceBehindZ(const Velocity& c, int component, int j, int k, int towards,
-                           double* behind) const {
-  double* unused = next_.data();
-  if (towards > 0) rowFaces(c, component, 2, j, k, behind, unused);
-  if (towards < 0) rowFaces(c, component, 2, j, k + 1, unused, behind);
-}
-
-/// Rows of a line of z come one after the other: `behind` holds the stencil of the face behind the
-/// row (j, k), and then that of the face ahead, for the next row.
-void Momentum::coefficientsZ(const Velocity& c, int component, int j, int k, int towards,
-                             double* __restrict behind, Row row) const {
-  const Direction& m = metric_[component][2];
-  const int ahead = towards > 0 ? k + 1 : k;
-  double* __restrict off_behind = towards > 0 ? row.lower : row.upper;
-  double* __restrict off_ahead = towards > 0 ? row.upper : row.lower;
-  double* __restrict next = next_.data();
-  const double iw = towards * m.inverse_width[k];
-  const int i0 = first(component, 0), i1 = last(component, 0);
-  for (int i = i0; i <= i1; ++i) off_behind[i] = -iw * behind[i];
-  towards > 0 ? rowFaces(c, component, 2, j, ahead, behind, next)
-              : rowFaces(c, component, 2, j, ahead, next, behind);
-  for (int i = i0; i <= i1; ++i) off_ahead[i] = iw * next[i];
-}
-
 void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Velocity& vm,
                        const Velocity& c, const Array& p, const WallVelocity& wall_n) {
   step_ = step;
@@ -186,9 +118,9 @@ void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Veloc
     for (int k = first(component, 2); k <= last(component, 2); ++k) {
       const bool swept = !(component == 2 && k == grid_.k_wing);
       solvePlane(component, k, swept, [&](int j, Row x, Row y) {
-        coefficientsX(c, component, j, k, x);
-        coefficientsY(c, component, j, k, y);
-        rightSide(vn, vm, c, p, wall_n, component, j, k, x, y);
+        rightSide(vn, vm, c, p, wall_n, component, j, k);
+        coefficientsX<FactorFace>(c, component, j, k, x);
+        coefficientsY<FactorFace>(c, component, j, k, y);
       });
       if (swept) continue;
       // Swept in finish(): it holds the wing's faces.
@@ -205,8 +137,8 @@ void Momentum::finish(const Velocity& vn, const Velocity& c, const WallVelocity&
     double* plane = delta_.c[2].data() + layout_.plane(kw);
     std::copy(wing_plane_.begin(), wing_plane_.end(), plane);
     solvePlane(2, kw, true, [&](int j, Row x, Row y) {
-      coefficientsX(c, 2, j, kw, x);
-      coefficientsY(c, 2, j, kw, y);
+      coefficientsX<FactorFace>(c, 2, j, kw, x);
+      coefficientsY<FactorFace>(c, 2, j, kw, y);
       double* d = delta_.c[2].data() + layout_.at(0, j, kw);
       fixWingFaces(wall_change, j, x, d);
       fixWingFaces(wall_change, j, y, d);
@@ -224,12 +156,13 @@ void Momentum::normalTransport(const Velocity& c, const Velocity& v_star, int j,
     double* up = upper_.data();
     double iw = 1;
     if (direction == 0) {
-      coefficientsX(c, 2, j, kw, {lo, up});
+      coefficientsX<CentralFace>(c, 2, j, kw, {lo, up});
     } else {
       iw = metric_[2][direction].inverse_width[direction == 1 ? j : kw];
-      rowFaces(c, 2, direction, j, kw, lo, up);
+      rowFaces<CentralFace>(c, 2, direction, j, kw, lo, up);
       for (int i = 0; i < layout_.nx; ++i) lo[i] = -lo[i];
-      rowFaces(c, 2, direction, j + (direction == 1), kw + (direction == 2), next_.data(), up);
+      rowFaces<CentralFace>(c, 2, direction, j + (direction == 1), kw + (direction == 2),
+                            next_.data(), up);
     }
     const std::ptrdiff_t s = layout_.stride(direction);
     for (int i = 0; i < layout_.nx; ++i) {
@@ -254,7 +187,7 @@ void Momentum::cutAtWing(int component, int j, int k, double* __restrict off,
 
 /// (v^n - v^(n-1)) / 3 - a (A v^n + grad p / rho) less the fourth differences, of one row.
 void Momentum::rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
-                         const WallVelocity& wall_n, int component, int j, int k, Row x, Row y) {
+                         const WallVelocity& wall_n, int component, int j, int k) {
   const std::ptrdiff_t row = layout_.at(0, j, k), sc = layout_.stride(component);
   const int i0 = first(component, 0), i1 = last(component, 0), kw = grid_.k_wing;
   const double* __restrict v = vn.c[component].data() + row;
@@ -273,8 +206,12 @@ void Momentum::rightSide(const Velocity& vn, const Velocity& vm, const Velocity&
   }
 
   double* behind = z_behind_.data() + j * layout_.sy;
-  if (k == first(component, 2)) faceBehindZ(c, component, j, k, +1, behind);
-  coefficientsZ(c, component, j, k, +1, behind, {lower_.data(), upper_.data()});
+  const Row x{x_central_[0].data(), x_central_[1].data()};
+  const Row y{y_central_[0].data(), y_central_[1].data()};
+  coefficientsX<CentralFace>(c, component, j, k, x);
+  coefficientsY<CentralFace>(c, component, j, k, y);
+  if (k == first(component, 2)) faceBehindZ<CentralFace>(c, component, j, k, +1, behind);
+  coefficientsZ<CentralFace>(c, component, j, k, +1, behind, {lower_.data(), upper_.data()});
   if (component != 2 && (k == kw || k == kw - 1)) {
     cutAtWing(component, j, k, k == kw ? lower_.data() : upper_.data(), wall_diagonal_.data());
     const double y_point = position(component, 1, j);

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <type_traits>
 
 #include "fluid/field.h"
 #include "fluid/frame.h"
@@ -16,13 +17,17 @@ struct MomentumStep {
   bool second_order;  ///< BDF2; false: implicit Euler
 };
 
+struct CentralFace;
+struct FactorFace;
+
 /// Implicit convection and diffusion on the staggered grid, factored by direction.
 ///
 /// In increments delta = v* - v^n, with the convecting field c frozen within the step, the step is
 ///     (1 + a A_x)(1 + a A_y)(1 + a A_z) delta = (v^n - v^(n-1))/3 - a (A v^n + grad p^n / rho) ,
-/// A_d v = c_d dv/dd - nu d2v/dd2, central with a small upwind fraction, in a form with zero row
-/// sums (a uniform field is kept exactly). Only the last factor and, in the wing's plane, the
-/// normal component see the wall's velocity at the new level; so all but these is done once a step
+/// A_d v = c_d dv/dd - nu d2v/dd2, central, in a form with zero row sums (a uniform field is kept
+/// exactly); the factors on the left have a small share of upwind differences. Only the last factor
+/// and, in the wing's plane, the normal component see the wall's velocity at the new level; so all
+/// but these is done once a step
 /// (`prepare`) and the rest for each guess of the interface (`finish`). delta is affine in the
 /// wall's velocity.
 class Momentum {
@@ -58,6 +63,13 @@ class Momentum {
     double* lower;
     double* upper;
   };
+  struct YFaces {  ///< two rows of faces, of the rows j and j + 1
+    Array above, below;
+  };
+  template <class Face>
+  YFaces& yFaces() {
+    return std::is_same_v<Face, CentralFace> ? y_central_faces_ : y_factor_faces_;
+  }
   /// First and last unknown of a component along a direction; along z those of this process.
   int first(int component, int direction) const {
     const int whole = component == direction ? 1 : 0;
@@ -68,16 +80,22 @@ class Momentum {
   }
   double position(int component, int direction, int index) const;
 
+  // Face: CentralFace for the right side, FactorFace for the implicit factors.
+  template <class Face>
   void rowFaces(const Velocity& c, int component, int direction, int j, int k, double* above,
                 double* below) const;
+  template <class Face>
   void coefficientsX(const Velocity& c, int component, int j, int k, Row row);
+  template <class Face>
   void coefficientsY(const Velocity& c, int component, int j, int k, Row row);
+  template <class Face>
   void faceBehindZ(const Velocity& c, int component, int j, int k, int towards,
                    double* behind) const;
+  template <class Face>
   void coefficientsZ(const Velocity& c, int component, int j, int k, int towards, double* behind,
                      Row row) const;
   void rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
-                 const WallVelocity& wall_n, int component, int j, int k, Row x, Row y);
+                 const WallVelocity& wall_n, int component, int j, int k);
   void cutAtWing(int component, int j, int k, double* off, double* diagonal) const;
   void fixWingFaces(const WallVelocity& wall_change, int j, Row row, double* d) const;
 
@@ -130,7 +148,8 @@ class Momentum {
   Array wing_plane_;  ///< right side of w in the wing's plane, before any factor
   // Scratch: single rows, two rows of faces, blocks of kLines rows, and such blocks interleaved
   Array lower_, upper_, wall_diagonal_, wall_side_, zero_, x_above_, x_below_, one_;
-  Array y_above_, y_below_;
+  Array x_central_[2], y_central_[2];  ///< of the right side: lower, upper
+  YFaces y_central_faces_, y_factor_faces_;
   Array x_lower_, x_upper_, y_lower_, y_upper_;
   Array lane_lower_, lane_upper_, lane_gamma_, lane_side_;
   Array gamma_;     ///< factors of a plane

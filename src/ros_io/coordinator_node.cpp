@@ -51,8 +51,11 @@ int CoordinatorNode::run() {
 
 int CoordinatorNode::fly() {
   RosOutput topics(node_);
-  FlightRun run(case_, outputDirectory(parameters_, case_), {&topics});
-  return run.fly(run_.id, *participants_[0], *participants_[1], *participants_[2], stop_);
+  const std::string out = outputDirectory(parameters_, case_);
+  FlightRun run(case_, out, !parameters_.resume.empty(), {&topics});
+  node_.setParam(kCheckpointsKey, checkpointFolder(out));
+  FlyUntil control(stop_);
+  return run.fly(run_.id, *participants_[0], *participants_[1], *participants_[2], control, stop_);
 }
 
 void CoordinatorNode::dismiss() noexcept {

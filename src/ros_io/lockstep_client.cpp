@@ -1,6 +1,7 @@
 #include "monarch_flight/ros_io/lockstep_client.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "monarch_flight/ros_io/conversions.h"
 
@@ -64,9 +65,7 @@ void RosParticipant::connect() {
 
 void RosParticipant::requireAlive(const ExchangeKey& key) const {
   const std::string where = " while waiting for " + name() + " at " + describe(key);
-  if (key.phase != Phase::kAbort && (*run_.stop || !ros::ok())) {
-    throw ExchangeError("interrupted" + where);
-  }
+  if (key.phase != Phase::kAbort && !ros::ok()) throw ExchangeError("interrupted" + where);
   if (!connected()) {
     throw ExchangeError(name() + " is lost (connection closed) at " + describe(key));
   }
@@ -105,11 +104,16 @@ void RosParticipant::await(const ParticipantRequest& message, const ExchangeKey&
   const ros::WallTime deadline = begin + ros::WallDuration(limit);
   const ros::WallTime halfway = begin + ros::WallDuration(0.5 * limit);
   bool again = false;
+  std::optional<ros::WallTime> stopped;  // when the interrupt was seen
   while (true) {
     run_.queue.callAvailable(slice(deadline));
     if (reply_) return;
     requireAlive(key);
     const ros::WallTime now = ros::WallTime::now();
+    if (*run_.stop && !stopped) stopped = now;
+    if (stopped && now >= *stopped + ros::WallDuration(run_.limits.grace_s)) {
+      throw ExchangeError("interrupted while waiting for " + name() + " at " + describe(key));
+    }
     if (now >= deadline) {
       throw ExchangeError(name() + " did not answer " + describe(key) + " within " +
                           inSeconds(limit) +

@@ -42,7 +42,7 @@ void LockstepServer::serve() {
   while (!ended_) {
     queue_.callAvailable(kSlice);
     if (ended_) break;
-    if (stop_ || !ros::ok()) throw ExchangeError("interrupted");
+    if (!ros::ok() || graceIsOver()) throw ExchangeError("interrupted");
     if (!coordinatorListens()) {
       throw ExchangeError("the coordinator (" + coordinator_->node +
                           ") is lost: its connection closed");
@@ -56,11 +56,19 @@ void LockstepServer::serve() {
   letCoordinatorLeave();
 }
 
+/// An interrupted run ends when the coordinator, interrupted too, has made its last checkpoint.
+bool LockstepServer::graceIsOver() {
+  if (!stop_) return false;
+  const ros::WallTime now = ros::WallTime::now();
+  if (stopped_.isZero()) stopped_ = now;
+  return now >= stopped_ + ros::WallDuration(limits_.grace_s);
+}
+
 void LockstepServer::letCoordinatorLeave() {
   // The launcher ends everything with the first node that goes; the coordinator still closes its
   // files.
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(limits_.exchange_s);
-  while (coordinatorListens() && !stop_ && ros::ok() && ros::WallTime::now() < deadline) {
+  while (coordinatorListens() && !graceIsOver() && ros::ok() && ros::WallTime::now() < deadline) {
     queue_.callAvailable(kSlice);
   }
 }

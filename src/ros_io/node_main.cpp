@@ -51,6 +51,15 @@ int nodeMain(const std::string& name, int argc, char** argv, const std::function
   });
 }
 
+// A process of the flow other than the first leaves when that one says so, not by a signal: the
+// first still writes a checkpoint, to which all contribute.
+int serveFlow(const Processes& processes) {
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_IGN);
+  processes.serveFlow();
+  return kExitComplete;
+}
+
 // Folder of the launcher's own files, as ROS has it.
 std::string rosHome() {
   if (const char* home = std::getenv("ROS_HOME")) return home;
@@ -69,8 +78,7 @@ int coordinatorMain(int argc, char** argv) {
 int fluidMain(int argc, char** argv) {
   const Processes processes(&argc, &argv);
   if (processes.rank() == 0) return participantMain(Role::kFluid, argc, argv);
-  processes.serveFlow();
-  return kExitComplete;
+  return serveFlow(processes);
 }
 
 int participantMain(Role role, int argc, char** argv) {
@@ -80,18 +88,17 @@ int participantMain(Role role, int argc, char** argv) {
 
 int inProcessMain(int argc, char** argv) {
   const Processes processes(&argc, &argv);
-  if (processes.rank() > 0) {
-    processes.serveFlow();
-    return kExitComplete;
-  }
+  if (processes.rank() > 0) return serveFlow(processes);
   return guarded("fly_in_process", [&] {
     const RunParameters parameters = runParameters(argc, argv);
     const Case c = loadCase(parameters);
     requireProcesses(parameters, c);
-    FlightRun run(c, outputDirectory(parameters, c), {});
-    InProcessFederation federation(c);
+    const std::string out = outputDirectory(parameters, c);
+    FlightRun run(c, out, !parameters.resume.empty(), {});
+    InProcessFederation federation(c, checkpointFolder(out));
+    FlyUntil control(stop_requested);
     return run.fly(1, federation.participant(Role::kFluid), federation.participant(Role::kFlight),
-                   federation.participant(Role::kWing), stop_requested);
+                   federation.participant(Role::kWing), control, stop_requested);
   });
 }
 

@@ -140,10 +140,7 @@ void CheckpointFiles::close(const CheckpointFacts& facts) const {
   });
   syncFolderOf(name);
   const std::vector<std::uint32_t> all = steps();
-  for (std::size_t i = kKept; i < all.size(); ++i) {
-    std::error_code ignored;
-    fs::remove_all(path(all[i]), ignored);
-  }
+  for (std::size_t i = kKept; i < all.size(); ++i) remove(all[i]);
 }
 
 std::vector<std::uint32_t> CheckpointFiles::steps() const {
@@ -179,6 +176,11 @@ StateRecord CheckpointFiles::read(std::uint32_t step, const std::string& part) c
   const Json files = unsealed(where + kManifest).at("files");
   if (!files.contains(file)) throw CheckpointError(where + " holds no " + file);
   return StateRecord::fromHdf5(verified(where + "/" + file, files.at(file)), where + "/" + file);
+}
+
+void CheckpointFiles::remove(std::uint32_t step) const noexcept {
+  std::error_code ignored;
+  fs::remove_all(path(step), ignored);
 }
 
 void CheckpointFiles::refuse(std::uint32_t step) const noexcept {

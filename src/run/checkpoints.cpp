@@ -96,6 +96,12 @@ bool Checkpoints::due(std::uint32_t step, bool last) const {
 
 bool Checkpoints::settled(std::uint32_t step) const { return every_ == 0 || kept_ == step; }
 
+void Checkpoints::reset() {
+  for (const std::uint32_t step : files_.steps()) files_.remove(step);
+  resumption_.reset();
+  kept_.reset();
+}
+
 void Checkpoints::open(std::uint32_t step) { files_.open(step); }
 
 void Checkpoints::close(std::uint32_t step, const ShowState& coordinator) {

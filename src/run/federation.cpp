@@ -26,6 +26,10 @@ class SinkChain : public StepSink {
     for (StepSink* sink : sinks_) sink->onCheckpoint(state);
   }
 
+  void onReset() override {
+    for (StepSink* sink : sinks_) sink->onReset();
+  }
+
   void onEnd(const std::string& failure) override {
     failure_ = failure;
     for (StepSink* sink : sinks_) {
@@ -63,13 +67,6 @@ double vortexThreshold(const Case& c) {
   return 0.1 * std::pow(speed / c.insect.planform.meanChord(), 2);
 }
 
-std::unique_ptr<SolverParticipant> makeSolver(Role role, const Case& c) {
-  const CoupledModel model = makeModel(c);
-  if (role == Role::kFluid) return std::make_unique<FluidParticipant>(model, makeFluid(c));
-  if (role == Role::kFlight) return std::make_unique<FlightParticipant>(model);
-  return std::make_unique<WingParticipant>(model);
-}
-
 }  // namespace
 
 std::unique_ptr<FluidModel> makeFluid(const Case& c) {
@@ -95,15 +92,20 @@ CoupledModel makeModel(const Case& c) {
 
 std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
                                              const std::string& checkpoints) {
-  return std::make_unique<KeptParticipant>(role, makeSolver(role, c), checkpoints);
+  const CoupledModel model = makeModel(c);
+  std::unique_ptr<SolverParticipant> solver;
+  if (role == Role::kFluid) solver = std::make_unique<FluidParticipant>(model, makeFluid(c));
+  if (role == Role::kFlight) solver = std::make_unique<FlightParticipant>(model);
+  if (role == Role::kWing) solver = std::make_unique<WingParticipant>(model);
+  return std::make_unique<KeptParticipant>(role, std::move(solver), checkpoints);
 }
 
 RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
-                  Participant& wing, const std::vector<StepSink*>& sinks, const StopFlag& stop,
+                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control,
                   Keeper* keeper) {
   SinkChain chain(sinks);
   Coordinator coordinator(makeModel(c), c.coupling, fluid, flight, wing, run_id);
-  const CoupledOutcome outcome = coordinator.run({&chain}, stop, keeper);
+  const CoupledOutcome outcome = coordinator.run({&chain}, control, keeper);
   RunResult result;
   result.failure = chain.failure().empty() ? outcome.failure : chain.failure();
   result.complete = outcome.complete && result.failure.empty();
@@ -118,8 +120,9 @@ InProcessFederation::InProcessFederation(const Case& c, const std::string& check
 
 RunResult InProcessFederation::run(std::uint64_t run_id, const std::vector<StepSink*>& sinks,
                                    const StopFlag& stop, Keeper* keeper) {
+  FlyUntil control(stop);
   return runCase(case_, run_id, *participants_[0], *participants_[1], *participants_[2], sinks,
-                 stop, keeper);
+                 control, keeper);
 }
 
 }  // namespace monarch_flight

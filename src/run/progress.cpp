@@ -46,6 +46,12 @@ void ProgressSink::onStep(const CommittedStep& step) {
   }
 }
 
+void ProgressSink::onReset() {
+  next_tenth_ = 1;
+  first_ = 0;
+  if (!terminal_) out_ << "set back to the start" << std::endl;
+}
+
 void ProgressSink::onEnd(const std::string&) {
   if (terminal_ && width_ > 0) out_ << std::endl;
 }

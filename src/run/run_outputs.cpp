@@ -24,41 +24,44 @@ void collect(std::string& failure, Action action) {
 
 }  // namespace
 
-RunOutputs::RunOutputs(const Case& c, const std::string& directory, StateVisitor* resumed)
-    : directory_(directory, estimatedOutputBytes(c), resumed != nullptr),
-      flight_(directory_.file("flight.csv"), resumed),
-      iterations_(directory_.file("iterations.csv"), resumed),
-      summary_(c) {
+RunOutputs::Files::Files(const Case& c, const RunDirectory& directory, StateVisitor* resumed)
+    : flight(directory.file("flight.csv"), resumed),
+      iterations(directory.file("iterations.csv"), resumed),
+      summary(c) {}
+
+RunOutputs::RunOutputs(const Case& c, const std::string& directory, Checkpoints* resumed)
+    : case_(c),
+      directory_(directory, estimatedOutputBytes(c), resumed && resumed->outputs()),
+      files_(std::make_unique<Files>(c, directory_, resumed ? resumed->outputs() : nullptr)) {
+  if (resumed && resumed->outputs())
+    files_->summary.resume(*resumed->outputs(), *resumed->resumption());
   writeWhole(directory_.file("case.yaml"), c.resolved_yaml);
   std::remove(directory_.file("summary.json").c_str());  // of the part flown before
 }
 
-RunOutputs::RunOutputs(const Case& c, const std::string& directory)
-    : RunOutputs(c, directory, nullptr) {}
+void RunOutputs::onStep(const CommittedStep& step) {
+  files_->summary.add(step);
+  files_->flight.append(step);
+  files_->iterations.append(step);
+}
 
-RunOutputs::RunOutputs(const Case& c, const std::string& directory, Checkpoints& checkpoints)
-    : RunOutputs(c, directory, checkpoints.outputs()) {
-  if (checkpoints.resumption()) summary_.resume(*checkpoints.outputs(), *checkpoints.resumption());
+void RunOutputs::onReset() {
+  files_.reset();
+  files_ = std::make_unique<Files>(case_, directory_, nullptr);
 }
 
 void RunOutputs::onCheckpoint(StateVisitor& state) {
-  flight_.onCheckpoint(state);
-  iterations_.onCheckpoint(state);
-  summary_.onCheckpoint(state);
-}
-
-void RunOutputs::onStep(const CommittedStep& step) {
-  summary_.add(step);
-  flight_.append(step);
-  iterations_.append(step);
+  files_->flight.onCheckpoint(state);
+  files_->iterations.onCheckpoint(state);
+  files_->summary.onCheckpoint(state);
 }
 
 void RunOutputs::onEnd(const std::string& failure) {
   std::string all = failure;
-  collect(all, [&] { flight_.file().finish(); });
-  collect(all, [&] { iterations_.file().finish(); });
+  collect(all, [&] { files_->flight.file().finish(); });
+  collect(all, [&] { files_->iterations.file().finish(); });
   const std::string before_summary = all;
-  collect(all, [&] { writeWhole(directory_.file("summary.json"), summary_.json(before_summary)); });
+  collect(all, [&] { writeWhole(directory_.file("summary.json"), files_->summary.json(before_summary)); });
   if (all != failure) throw OutputError(all);
 }
 

@@ -47,6 +47,7 @@ void Summary::add(const CommittedStep& step) {
   theta_B_.add(body.pitch.q);
   theta_R_.add(step.interface.theta_R.q);
   hash_.add(step);
+  ignored_ = step.ignored;
   for (std::size_t i = 0; i < wall_.size(); ++i) wall_[i] += step.wall_s[i];
   exchange_ += step.exchange_s;
   if (step.step == 0) {
@@ -176,6 +177,11 @@ std::string Summary::json(const std::string& failure) const {
                  {"wing", wall_[2]},
                  {"exchange", exchange_}};
   if (resumed_ != "[]") j["resumed"] = Json::parse(resumed_);
+  j["ignored_messages"] = {{"late", ignored_.late},
+                           {"repeated", ignored_.repeated},
+                           {"foreign", ignored_.foreign},
+                           {"malformed", ignored_.malformed},
+                           {"forged", ignored_.forged}};
   j["cells"] = cells_;
   j["added_mass"] = matrix(added_mass_);
   j["state_sha256"] = hash_.hex();

@@ -35,6 +35,12 @@ void FlapRecorder::onStep(const CommittedStep& step) {
   q_[3].push_back(wing.q);
 }
 
+void FlapRecorder::onReset() {
+  states_.clear();
+  accelerations_.clear();
+  for (std::vector<double>& samples : q_) samples.clear();
+}
+
 Flap FlapRecorder::flap(std::size_t first, std::size_t last) const {
   Flap f;
   f.start = states_[first];

@@ -12,6 +12,7 @@ class FlapRecorder : public StepSink {
  public:
   FlapRecorder(const TimeGrid& time, std::uint32_t run_in_steps, int harmonics);
   void onStep(const CommittedStep& step) override;
+  void onReset() override;
   void onEnd(const std::string&) override {}
   std::vector<Flap> flaps() const;
   /// Time derivative of the state at every level.

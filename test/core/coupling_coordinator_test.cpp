@@ -324,6 +324,59 @@ TEST_F(Coordination, StopInterruptsBetweenSubIterations) {
   EXPECT_EQ(f_.fluid->count(Phase::kAbort), 1);
 }
 
+/// Goes on, but gives one order before one sub-iteration.
+class OneOrder : public RunControl {
+ public:
+  OneOrder(std::uint32_t step, std::uint32_t iteration, Order order)
+      : step_(step), iteration_(iteration), order_(order) {}
+  Order next(std::uint32_t step, std::uint32_t iteration) override {
+    asked.emplace_back(step, iteration);
+    if (given || step != step_ || iteration != iteration_) return Order::kGoOn;
+    given = true;
+    return order_;
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> asked;
+  bool given = false;
+
+ private:
+  std::uint32_t step_, iteration_;
+  Order order_;
+};
+
+TEST_F(Coordination, TheControlIsAskedBeforeEverySubIteration) {
+  OneOrder control(0, 0, RunControl::Order::kGoOn);
+  ASSERT_TRUE(f_.run(control).complete);
+  std::size_t n = 0;
+  for (const CommittedStep& step : f_.sink.steps) {
+    for (const IterationRecord& record : step.iterations) {
+      ASSERT_LT(n, control.asked.size());
+      EXPECT_EQ(control.asked[n++], std::make_pair(record.step, record.iteration));
+    }
+  }
+  EXPECT_EQ(n, control.asked.size());
+}
+
+TEST_F(Coordination, AResetInsideAStepFliesTheSameFlightAgain) {
+  Federation undisturbed = with(f_.settings);
+  ASSERT_TRUE(undisturbed.run().complete);
+  OneOrder control(14, 1, RunControl::Order::kReset);
+  ASSERT_TRUE(f_.run(control).complete);
+  EXPECT_TRUE(control.given);
+  EXPECT_EQ(f_.sink.resets, 1);
+  EXPECT_EQ(f_.fluid->count(Phase::kStart), 2);
+  ASSERT_EQ(f_.sink.steps.size(), undisturbed.sink.steps.size());
+  for (std::size_t n = 0; n < f_.sink.steps.size(); ++n) {
+    EXPECT_TRUE(same(f_.sink.steps[n].interface, undisturbed.sink.steps[n].interface)) << n;
+    EXPECT_EQ(f_.sink.steps[n].iterations.size(), undisturbed.sink.steps[n].iterations.size());
+  }
+}
+
+TEST_F(Coordination, AnOperatorThatWasAskedForAndDidNotComeEndsTheRun) {
+  f_.settings.relaxation = Relaxation::kAddedMass;
+  f_.fluid->change = [](Reply& reply) { reply.jacobian.reset(); };
+  EXPECT_NE(f_.run().failure.find("did not answer with its load operator"), std::string::npos);
+}
+
 TEST_F(Coordination, AFailingSinkEndsTheRun) {
   f_.sink.each = [](const CommittedStep& step) {
     if (step.step == 5) throw std::runtime_error("no space left on device");

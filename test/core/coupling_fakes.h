@@ -153,13 +153,17 @@ class KeepingSink : public StepSink {
     steps.push_back(step);
     if (each) each(step);
   }
+  void onReset() override {
+    ++resets;
+    steps.clear();
+  }
   void onEnd(const std::string& text) override {
     ++ends;
     failure = text;
   }
   std::vector<CommittedStep> steps;
   std::function<void(const CommittedStep&)> each;
-  int ends = 0;
+  int ends = 0, resets = 0;
   std::string failure;
 };
 
@@ -178,7 +182,11 @@ struct Federation {
     wing = std::make_unique<Recorder>(*wing_solver);
   }
   CoupledOutcome run() {
-    return Coordinator(model, settings, *fluid, *flight, *wing, 7).run({&sink}, stop);
+    FlyUntil control(stop);
+    return run(control);
+  }
+  CoupledOutcome run(RunControl& control) {
+    return Coordinator(model, settings, *fluid, *flight, *wing, 7).run({&sink}, control);
   }
   CoupledModel model;
   CouplingSettings settings;

@@ -25,6 +25,7 @@ class Recorder : public StepSink {
     steps.push_back(step);
     hash.add(step);
   }
+  void onReset() override { ADD_FAILURE() << "nobody asked for it"; }
   void onEnd(const std::string& failure) override {
     ++ends;
     end_failure = failure;

@@ -9,6 +9,7 @@
 #include "monarch_flight/coupling/keeper.h"
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/run_control.h"
 #include "monarch_flight/coupling/settings.h"
 #include "monarch_flight/coupling/step_model.h"
 #include "monarch_flight/math/errors.h"
@@ -44,12 +45,12 @@ class Coordinator {
   Coordinator(const CoupledModel& model, const CouplingSettings& settings, Participant& fluid,
               Participant& flight, Participant& wing, std::uint64_t run_id);
 
-  /// Runs all steps; level 0 is delivered first. `stop` is polled between sub-iterations. Never
+  /// Runs all steps; level 0 is delivered first. `control` is asked before every sub-iteration. Never
   /// throws for a failed run: participants get ABORT, sinks get onEnd(failure), and the outcome
   /// says why. With a `keeper`, checkpoints are made of the steps that it names, of the last one,
-  /// and of the last committed one when the run is interrupted or a step fails; a resumed run goes
-  /// on behind the keeper's step, bit for bit as if it had never ended.
-  CoupledOutcome run(const std::vector<StepSink*>& sinks, const StopFlag& stop,
+  /// and of the last committed one when the run is stopped or a step fails; a resumed run goes on
+  /// behind the keeper's step, bit for bit as if it had never ended.
+  CoupledOutcome run(const std::vector<StepSink*>& sinks, RunControl& control,
                      Keeper* keeper = nullptr);
 
  private:
@@ -58,22 +59,28 @@ class Coordinator {
     Trial trial;       // its increments, residual and loads
     Interface answer;  // w~^k
   };
-  struct Interrupted {};  // `stop` was seen
+  struct Interrupted {};  // the control ends the run
+  struct SetBack {};      // the control begins it again
   class StepFailure : public NumericalError {  // no solver has committed the step
    public:
     using NumericalError::NumericalError;
   };
 
-  void start(const std::vector<StepSink*>& sinks, Keeper* keeper);
-  void resume(Keeper& keeper);
+  std::uint32_t start();
+  void startAgain();
+  void resume();
+  void deliver(const CommittedStep& step);
+  void heed(RunControl& control, const CommittedStep& out);
   void memory(StateVisitor& state);
-  void keep(std::uint32_t step, const std::vector<StepSink*>& sinks, Keeper& keeper);
-  std::string rescue(std::uint32_t step, const std::vector<StepSink*>& sinks, Keeper* keeper);
-  CommittedStep advance(std::uint32_t step, const StopFlag& stop);
-  void solve(const StopFlag& stop, Evaluation& last, CommittedStep& out);
-  bool attempt(Accelerator& accelerator, std::uint32_t number, const StopFlag& stop, Evaluation& last,
+  void keep(std::uint32_t step);
+  void keepBeforeStep(std::uint32_t step);
+  std::string rescue(std::uint32_t step);
+  ExchangeKey keyOf(std::uint32_t step, std::uint32_t iteration, Phase phase) const;
+  CommittedStep advance(std::uint32_t step, RunControl& control);
+  void solve(RunControl& control, Evaluation& last, CommittedStep& out);
+  bool attempt(Accelerator& accelerator, std::uint32_t number, RunControl& control, Evaluation& last,
                CommittedStep& out, std::string& error);
-  bool converge(Accelerator& accelerator, CouplingVector d, const StopFlag& stop, Evaluation& last,
+  bool converge(Accelerator& accelerator, CouplingVector d, RunControl& control, Evaluation& last,
                 CommittedStep& out);
   Evaluation evaluate(const Interface& guess, bool want_operator, CommittedStep& out);
   void judge(const std::optional<Loads>& expected, Evaluation& evaluation, CommittedStep& out);
@@ -94,13 +101,16 @@ class Coordinator {
   CouplingSettings settings_;
   std::array<Participant*, 3> participants_;
   std::uint64_t run_id_;
+  std::uint32_t resets_ = 0;
+  std::vector<StepSink*> sinks_;  // of the run
+  Keeper* keeper_ = nullptr;      // of the run; none: no checkpoints
   StepModel step_model_;
   InterfaceBalance balance_;
   std::unique_ptr<Accelerator> accelerator_, cautious_;  // of first and of second attempts
   Matrix6d added_mass_ = Matrix6d::Zero();  // of the fluid, for the ratio
   int operator_cost_ = 0;                   // of the fluid, in evaluations
   Interface committed_;       // level n
-  StateSnapshot before_;                   // memory of level n, for a step that does not end well
+  StateSnapshot before_;                   // memory of level n, while a step is solved
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known
   // Running scales: largest of the recent past, at least what is worth noticing.

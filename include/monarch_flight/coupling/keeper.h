@@ -23,6 +23,8 @@ class Keeper {
   virtual bool due(std::uint32_t step, bool last) const = 0;
   /// Whether the state of this step is kept already, or none ever is.
   virtual bool settled(std::uint32_t step) const = 0;
+  /// The run goes back to level 0: what has been kept is void.
+  virtual void reset() = 0;
   /// Both throw OutputError when the disk refuses.
   virtual void open(std::uint32_t step) = 0;
   virtual void close(std::uint32_t step, const ShowState& coordinator) = 0;

@@ -35,8 +35,10 @@ struct ExchangeKey {
   std::uint32_t step = 0;       ///< the time level n+1 being computed; 0 for START
   std::uint32_t iteration = 0;  ///< sub-iteration k, from 0
   Phase phase = Phase::kStart;
+  std::uint32_t reset = 0;  ///< how often the run has been set back to its start
   bool operator==(const ExchangeKey& o) const {
-    return run == o.run && step == o.step && iteration == o.iteration && phase == o.phase;
+    return run == o.run && step == o.step && iteration == o.iteration && phase == o.phase &&
+           reset == o.reset;
   }
   bool operator!=(const ExchangeKey& o) const { return !(*this == o); }
 };
@@ -62,10 +64,25 @@ struct Reply {
   std::vector<VortexPoint> vortices; ///< only when asked for
 };
 
+/// Messages that were not for this run or not well formed, and were therefore not used.
+struct IgnoredMessages {
+  std::uint64_t late = 0;       ///< of this run, but of an exchange that is over
+  std::uint64_t repeated = 0;   ///< the same message again
+  std::uint64_t foreign = 0;    ///< of another run
+  std::uint64_t malformed = 0;  ///< wrong protocol version, unknown phase, impossible sizes
+  std::uint64_t forged = 0;     ///< not sealed with the token of the run
+  std::uint64_t total() const { return late + repeated + foreign + malformed + forged; }
+  /// "1 late, 0 repeated, ..."
+  std::string describe() const;
+  IgnoredMessages& operator+=(const IgnoredMessages& o);
+};
+
 /// One solver as the coordinator sees it. In process: direct call; over ROS: a lockstep exchange.
 class Participant {
  public:
   virtual ~Participant() = default;
+  /// At both ends of the connection since the run began; none in one process.
+  virtual IgnoredMessages ignored() const { return {}; }
   /// Answers `request`. In-process participants report failures in Reply::error; transports throw
   /// ExchangeError naming participant, step, iteration and phase when no answer comes in time.
   virtual Reply exchange(const Request& request) = 0;

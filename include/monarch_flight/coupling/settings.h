@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/state_visitor.h"
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/insect/newmark.h"
@@ -64,6 +65,7 @@ struct CommittedStep {
   SurfacePressure surface;             ///< empty unless fields were due
   std::vector<VortexPoint> vortices;   ///< empty unless fields were due
   std::array<double, 3> wall_s{};      ///< computing time of fluid, flight, wing in this step
+  IgnoredMessages ignored;             ///< of all participants since the run began
   double exchange_s = 0.0;             ///< wall time of the step outside the participants' own computing
 };
 
@@ -75,6 +77,8 @@ class StepSink {
   /// A checkpoint is made: makes durable what has been written so far, and shows how to go on from
   /// here. A sink that goes on from a checkpoint is made with what it has shown.
   virtual void onCheckpoint(StateVisitor&) {}
+  /// The run goes back to its start: what has been delivered is void, level 0 comes again.
+  virtual void onReset() = 0;
   /// The run is over; `failure` is empty after a complete run. Called exactly once.
   virtual void onEnd(const std::string& failure) = 0;
 };

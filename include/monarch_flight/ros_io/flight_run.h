@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/run_control.h"
 #include "monarch_flight/ros_io/bag_output.h"
 #include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/run/progress.h"
@@ -15,14 +16,20 @@ namespace monarch_flight {
 /// bar. The same for the coordinator node and for a run in one process.
 class FlightRun {
  public:
-  /// Makes the folder `out`. `listeners` also get the messages. Throws InputError, OutputError.
-  FlightRun(const Case& c, const std::string& out, std::vector<MessageOutput*> listeners);
-  /// Flies; prints the end; returns an exit code.
+  /// Makes the folder `out`, or goes on from the newest checkpoint in it (`resume`) and says from
+  /// which. `listeners` also get the messages. Throws InputError, OutputError.
+  FlightRun(const Case& c, const std::string& out, bool resume,
+            std::vector<MessageOutput*> listeners);
+  /// Flies as `control` says; prints the end; returns an exit code (`stop`: stopped by hand).
   int fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
-          const StopFlag& stop);
+          RunControl& control, const StopFlag& stop);
 
  private:
+  void tell() const;
+  void openBag(std::vector<MessageOutput*>& listeners);
+
   const Case& case_;
+  Checkpoints checkpoints_;
   RunOutputs files_;
   std::unique_ptr<BagOutput> bag_;
   std::unique_ptr<MessageSink> messages_;

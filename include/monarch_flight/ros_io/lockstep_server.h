@@ -12,7 +12,8 @@ namespace monarch_flight {
 ///  - Older requests (late), other runs (foreign) and malformed messages are counted and ignored.
 class LockstepServer {
  public:
-  /// `participant` and `stop` must outlive this. `stop` ends every wait.
+  /// `participant` and `stop` must outlive this. `stop` ends every wait, that for requests after
+  /// limits.grace_s.
   LockstepServer(const ros::NodeHandle& node, const LockstepIdentity& identity,
                  Participant& participant, const LockstepLimits& limits, const StopFlag& stop);
 
@@ -28,6 +29,7 @@ class LockstepServer {
   void onRequest(const ParticipantRequestConstPtr& request);
   void waitForCoordinator();
   void letCoordinatorLeave();
+  bool graceIsOver();
   [[noreturn]] void refuse();
   Reply answer(const Request& request);
   bool coordinatorListens() const;
@@ -46,7 +48,7 @@ class LockstepServer {
   bool started_ = false;       // START has been answered
   bool iterating_ = false;     // START of all participants is over
   bool ended_ = false;         // the coordinator has ended the run
-  ros::WallTime last_heard_;
+  ros::WallTime last_heard_, stopped_;
   ParticipantReply cache_;  // answer to the last request, when started_
   LockstepCounters counters_;
 };

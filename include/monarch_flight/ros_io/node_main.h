@@ -3,6 +3,7 @@
 #include <string>
 
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/stop_flag.h"
 
 namespace monarch_flight {
 

@@ -17,6 +17,7 @@ class RosOutput : public MessageOutput {
   explicit RosOutput(const ros::NodeHandle& node);
   void open(const std::vector<StampedMessage>& topics) override;
   void write(const StampedMessage& message) override;
+  void restart() override {}  // subscribers see the clock jump back
   void close() override {}
 
  private:

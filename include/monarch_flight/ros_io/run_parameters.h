@@ -15,11 +15,16 @@ namespace monarch_flight {
 struct RunParameters {
   std::string name = "climb";  ///< `case`: name or path of the case file
   std::string out;             ///< folder of the results; empty: flights/<case>-<time>
+  std::string resume;          ///< folder of a run to go on with; empty: a new run
   std::string directory;       ///< where relative paths start; empty: the working directory
-  CaseOverrides overrides;     ///< fluid, grid, flaps, steps_per_flap, record
+  CaseOverrides overrides;     ///< fluid, grid, flaps, steps_per_flap, record, checkpoint_every
   int ranks = 1;               ///< `ranks`: processes of the flow solver
   double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
 };
+
+/// Name of the ROS parameter, below /monarch_flight, in which the coordinator tells the solver nodes
+/// the folder of the checkpoints: no message ever names a file.
+constexpr char kCheckpointsKey[] = "checkpoints";
 
 /// Checks keys and values. `where` is put before a key in messages ("/monarch_flight/" or "").
 /// Throws InputError with every fault: unknown keys, ranks that are no whole number > 0, a watchdog

@@ -35,6 +35,7 @@ class CheckpointFiles {
   CheckpointFacts verify(std::uint32_t step) const;
   /// The part of a checkpoint. Throws CheckpointError.
   StateRecord read(std::uint32_t step, const std::string& part) const;
+  void remove(std::uint32_t step) const noexcept;
   /// Puts a checkpoint that cannot be used out of the way: step_<n>.refused.
   void refuse(std::uint32_t step) const noexcept;
 

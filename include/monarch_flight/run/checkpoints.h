@@ -31,9 +31,12 @@ class Checkpoints : public Keeper {
   void load(const ShowState& coordinator) override;
   bool due(std::uint32_t step, bool last) const override;
   bool settled(std::uint32_t step) const override;
+  void reset() override;
   void open(std::uint32_t step) override;
   void close(std::uint32_t step, const ShowState& coordinator) override;
 
+  /// Step of the newest checkpoint, if there is one.
+  const std::optional<std::uint32_t>& kept() const { return kept_; }
   /// Set by a resumed run only.
   const std::optional<Resumption>& resumption() const { return resumption_; }
   /// What the outputs have shown at the checkpoint; nullptr: a new run. Throws CheckpointError.

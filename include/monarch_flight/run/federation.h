@@ -6,6 +6,7 @@
 #include "monarch_flight/coupling/keeper.h"
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/run_control.h"
 #include "monarch_flight/run/case.h"
 
 namespace monarch_flight {
@@ -26,11 +27,11 @@ struct RunResult {
 };
 
 /// Runs the coupled loop of the whole case over three participants and feeds the sinks.
-/// `stop` is polled between sub-iterations (SIGINT). Never throws for a failed run: see RunResult.
+/// `control` is asked before every sub-iteration. Never throws for a failed run: see RunResult.
 /// A sink that throws in onStep ends the run with its message; one that throws in onEnd makes it
 /// failed, and the sinks behind it are ended with that failure.
 RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
-                  Participant& wing, const std::vector<StepSink*>& sinks, const StopFlag& stop,
+                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control,
                   Keeper* keeper = nullptr);
 
 /// Fluid, flight and wing of a case in one process, without ROS.
@@ -38,6 +39,7 @@ class InProcessFederation {
  public:
   /// `checkpoints`: their folder; needed for a run with a keeper.
   explicit InProcessFederation(const Case& c, const std::string& checkpoints = "");
+  /// Flies until the end or until `stop` is set.
   RunResult run(std::uint64_t run_id, const std::vector<StepSink*>& sinks, const StopFlag& stop,
                 Keeper* keeper = nullptr);
   Participant& participant(Role role) { return *participants_[static_cast<int>(role)]; }

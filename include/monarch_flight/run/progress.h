@@ -17,6 +17,7 @@ class ProgressSink : public StepSink {
   /// Of a run that goes on behind a step.
   void resumeAt(std::uint32_t step) { first_ = step; }
   void onStep(const CommittedStep& step) override;
+  void onReset() override;
   void onEnd(const std::string& failure) override;
 
  private:

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 
 #include "monarch_flight/run/checkpoints.h"
@@ -15,28 +16,32 @@ namespace monarch_flight {
 /// failures.
 class RunOutputs : public StepSink {
  public:
-  /// Makes the folder. Throws InputError (see RunDirectory) and OutputError.
-  RunOutputs(const Case& c, const std::string& directory);
-  /// The same, or goes on from the checkpoint that `checkpoints` has chosen: the tables are cut to
-  /// its length. Throws CheckpointError too.
-  RunOutputs(const Case& c, const std::string& directory, Checkpoints& checkpoints);
+  /// Makes the folder, or goes on from the checkpoint that `resumed` has chosen: the tables are cut
+  /// to its length. Throws InputError (see RunDirectory), OutputError and CheckpointError.
+  RunOutputs(const Case& c, const std::string& directory, Checkpoints* resumed = nullptr);
 
   /// Throws OutputError, which ends the run.
   void onStep(const CommittedStep& step) override;
-  /// Throws OutputError when a file could not be finished; all others are finished nevertheless.
-  void onEnd(const std::string& failure) override;
+  /// Files and figures begin anew. Throws OutputError.
+  void onReset() override;
   /// Throws OutputError.
   void onCheckpoint(StateVisitor& state) override;
+  /// Throws OutputError when a file could not be finished; all others are finished nevertheless.
+  void onEnd(const std::string& failure) override;
 
   const RunDirectory& directory() const { return directory_; }
 
  private:
-  RunOutputs(const Case& c, const std::string& directory, StateVisitor* resumed);
+  struct Files {
+    Files(const Case& c, const RunDirectory& directory, StateVisitor* resumed);
+    FlightTable flight;
+    IterationTable iterations;
+    Summary summary;
+  };
 
+  Case case_;
   RunDirectory directory_;
-  FlightTable flight_;
-  IterationTable iterations_;
-  Summary summary_;
+  std::unique_ptr<Files> files_;
 };
 
 }  // namespace monarch_flight

@@ -57,6 +57,7 @@ class Summary {
   double exchange_ = 0.0;
   long cells_ = 0;
   Matrix6d added_mass_ = Matrix6d::Zero();
+  IgnoredMessages ignored_;
   StateHash hash_;
   double wall_before_ = 0.0;    // of the parts flown before a resumption [s]
   std::string resumed_ = "[]";  // JSON: where and how the run went on
