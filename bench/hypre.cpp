@@ -36,8 +36,12 @@ HYPRE_IJMatrix assemble(const Grid& g) {
       for (int e = 0; e < 3; ++e) area *= e == d ? 1.0 : axis[e]->width[at[e]];
       for (int side = 0; side < 2; ++side) {
         const int face = at[d] + side, other = at[d] + (side == 0 ? -1 : 1);
-        if (d == 2 && face == g.k_wing && g.isWing(at[0], at[1])) continue;
-        const double conductance = area / axis[d]->gap[face];
+        int beyond[3] = {at[0], at[1], at[2]};
+        beyond[d] = face;
+        const bool outside = face == 0 || face == size[d];
+        const double mobility = outside ? 1 : g.mobility.at(d, beyond[0], beyond[1], beyond[2]);
+        if (mobility == 0) continue;
+        const double conductance = mobility * area / axis[d]->gap[face];
         values[0] += conductance;
         if (other < 0 || other >= size[d]) continue;
         columns[count] = row + (other - at[d]) * stride[d];

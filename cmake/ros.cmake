@@ -7,14 +7,16 @@ if(NOT DEFINED Python3_EXECUTABLE AND DEFINED PYTHON_EXECUTABLE)
   set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE} CACHE FILEPATH "The same, for ament's modules")
 endif()
 
-set(ROS_PACKAGES diagnostic_msgs diagnostic_updater geometry_msgs nav_msgs rosbag roscpp rosgraph_msgs
-  roslz4 sensor_msgs std_msgs tf2_msgs topic_tools visualization_msgs)
+set(ROS_PACKAGES actionlib actionlib_msgs diagnostic_msgs diagnostic_updater geometry_msgs nav_msgs rosbag roscpp
+  rosgraph_msgs roslz4 sensor_msgs std_msgs std_srvs tf2_msgs topic_tools visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS message_generation ${ROS_PACKAGES})
 
-add_message_files(DIRECTORY msg FILES CouplingKey.msg FlightState.msg Hello.msg InterfaceState.msg
+add_message_files(DIRECTORY msg FILES CouplingKey.msg FlightState.msg Hello.msg IgnoredCounts.msg InterfaceState.msg
   ParticipantReply.msg ParticipantRequest.msg PressureFacet.msg StepIterations.msg SubIteration.msg
   VortexSample.msg WingLoads.msg)
-generate_messages(DEPENDENCIES std_msgs)
+add_service_files(DIRECTORY srv FILES FlySteps.srv)
+add_action_files(DIRECTORY action FILES Fly.action)
+generate_messages(DEPENDENCIES actionlib_msgs std_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
@@ -32,7 +34,7 @@ add_library(monarch_ros_io SHARED ${ros_sources})
 target_include_directories(monarch_ros_io PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 #catkin_lint: ignore_once external_directory
 target_include_directories(monarch_ros_io SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include)
-target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES})
+target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES} PRIVATE OpenSSL::Crypto ${CMAKE_DL_LIBS})
 add_dependencies(monarch_ros_io monarch_flight_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 target_compile_definitions(monarch_ros_io PRIVATE
   MONARCH_SOURCE_SHARE="${CMAKE_CURRENT_SOURCE_DIR}")

@@ -8,13 +8,17 @@
 namespace monarch_flight::verify {
 namespace {
 
+/// Distance of the box from the wing [chords]: where the cells are still small, for what flows
+/// through its faces is itself interpolated.
+constexpr double kAround = 0.2;
+
 int indexOf(const Axis& axis, double at) {
   return static_cast<int>(std::lower_bound(axis.face.begin(), axis.face.end(), at) -
                           axis.face.begin());
 }
 
 /// Root mean square and largest difference of the normal force, by its peak.
-void compare(Report& report, double cells_per_chord, std::vector<double>& worst) {
+void compare(Report& report, double cells_per_chord, bool bounded, std::vector<double>& worst) {
   GridSettings s = GridSettings::preset("preview");
   s.level = "custom";
   s.cells_per_chord = cells_per_chord;
@@ -26,8 +30,10 @@ void compare(Report& report, double cells_per_chord, std::vector<double>& worst)
   NavierStokes flow(makeGrid(Planform::rectangle(1, 2, 0.3, 0.5), s), airOf(rho, mu), 1,
                     kNoCourantLimit);
   const Grid& g = flow.grid();
-  const int low[3] = {indexOf(g.x, -1.1), indexOf(g.y, 0.1), indexOf(g.z, -0.4)};
-  const int high[3] = {indexOf(g.x, 0.7), indexOf(g.y, 2.9), indexOf(g.z, 0.4)};
+  const int low[3] = {indexOf(g.x, -0.7 - kAround), indexOf(g.y, 0.5 - kAround),
+                      indexOf(g.z, -kAround)};
+  const int high[3] = {indexOf(g.x, 0.3 + kAround), indexOf(g.y, 2.5 + kAround),
+                       indexOf(g.z, kAround)};
   const Box box(flow, low, high, rho, mu);
   auto motion = [&](double t) {
     return flapAndPitch(oscillation(0.5, w, t), oscillation(0.4, w, t, M_PI / 2));
@@ -55,7 +61,12 @@ void compare(Report& report, double cells_per_chord, std::vector<double>& worst)
     ++count;
   }
   const std::string resolution = text("%g cells a chord", cells_per_chord);
-  report.below("largest difference / peak force", resolution, largest / peak, 0.01);
+  const char* name = "largest difference / peak force";
+  if (bounded) {
+    report.below(name, resolution, largest / peak, 0.01);
+  } else {
+    report.state(name, resolution, largest / peak, 0);
+  }
   report.state("rms difference / peak force", resolution, std::sqrt(sum / count) / peak, 0);
   worst.push_back(largest / peak);
 }
@@ -64,7 +75,7 @@ void compare(Report& report, double cells_per_chord, std::vector<double>& worst)
 
 void momentumBalance(Report& report) {
   std::vector<double> worst;
-  for (double cells : {12.0, 16.0, 24.0}) compare(report, cells, worst);
+  for (double cells : {12.0, 16.0, 24.0}) compare(report, cells, cells == 24, worst);
   report.curve({"momentum_balance",
                 "cells a chord",
                 "largest difference / peak force",

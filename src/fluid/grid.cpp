@@ -176,7 +176,9 @@ Grid makeGrid(Axis x, Axis y, Axis z, int k_wing, bool open, std::vector<std::ui
   if (wing.size() != static_cast<std::size_t>(x.n()) * y.n()) {
     throw std::invalid_argument("makeGrid: the wing's mask must have nx * ny entries");
   }
-  return Grid{std::move(x), std::move(y), std::move(z), k_wing, open, std::move(wing)};
+  Mobility mobility(x, y, z, k_wing, wing);
+  return Grid{std::move(x), std::move(y),    std::move(z),       k_wing,
+              open,         std::move(wing), std::move(mobility)};
 }
 
 Grid makeGrid(const Planform& planform, const GridSettings& settings) {

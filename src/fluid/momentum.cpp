@@ -121,6 +121,7 @@ void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Veloc
         rightSide(vn, vm, c, p, wall_n, component, j, k);
         coefficientsX<FactorFace>(c, component, j, k, x);
         coefficientsY<FactorFace>(c, component, j, k, y);
+        mobilise(component, j, k, {x.lower, x.upper, y.lower, y.upper});
       });
       if (swept) continue;
       // Swept in finish(): it holds the wing's faces.
@@ -139,6 +140,7 @@ void Momentum::finish(const Velocity& vn, const Velocity& c, const WallVelocity&
     solvePlane(2, kw, true, [&](int j, Row x, Row y) {
       coefficientsX<FactorFace>(c, 2, j, kw, x);
       coefficientsY<FactorFace>(c, 2, j, kw, y);
+      mobilise(2, j, kw, {x.lower, x.upper, y.lower, y.upper});
       double* d = delta_.c[2].data() + layout_.at(0, j, kw);
       fixWingFaces(wall_change, j, x, d);
       fixWingFaces(wall_change, j, y, d);
@@ -226,9 +228,13 @@ void Momentum::rightSide(const Velocity& vn, const Velocity& vm, const Velocity&
   const double* cy = c.c[1].data() + row;
   subtractFourth(v, 1, cx, component == 0 ? cx : cx - sc, fourth_x_[component].data(), courant,
                  share, i0, i1, d);
-  if (j < 2 + first(component, 1) || j > layout_.ny - 3) return;
-  subtractFourth(v, layout_.sy, cy, component == 1 ? cy : cy - sc, one_.data(),
-                 courant * metric_[component][1].inverse_width[j], share, i0, i1, d);
+  if (j >= 2 + first(component, 1) && j <= layout_.ny - 3) {
+    subtractFourth(v, layout_.sy, cy, component == 1 ? cy : cy - sc, one_.data(),
+                   courant * metric_[component][1].inverse_width[j], share, i0, i1, d);
+  }
+  if (const double* m = grid_.mobility.row(component, j, k)) {
+    for (int i = i0; i <= i1; ++i) d[i] += (m[i] - 1) * (d[i] - third * (v[i] - w[i]));
+  }
 }
 
 }  // namespace monarch_flight

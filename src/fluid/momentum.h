@@ -97,6 +97,14 @@ class Momentum {
   void rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
                  const WallVelocity& wall_n, int component, int j, int k);
   void cutAtWing(int component, int j, int k, double* off, double* diagonal) const;
+  /// Beside the rim: the inertia of a face is 1 / mobility. Scales what a row has beyond inertia.
+  void mobilise(int component, int j, int k, std::initializer_list<double*> terms) const {
+    const double* m = grid_.mobility.row(component, j, k);
+    if (!m) return;
+    for (double* term : terms) {
+      for (int i = 0; i < layout_.nx; ++i) term[i] *= m[i];
+    }
+  }
   void fixWingFaces(const WallVelocity& wall_change, int j, Row row, double* d) const;
 
   /// Calls fill(j, x, y) for the rows of plane k of delta, to set their right sides and their

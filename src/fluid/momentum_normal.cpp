@@ -37,6 +37,7 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
       (k == kw || k == kw - 1)) {  // sees the wall at half a cell where it is wing
     const double y = position(component, 1, j);
     cutAtWing(component, j, k, k == kw ? lower : upper, wall_diagonal_.data());
+    mobilise(component, j, k, {lower, upper, wall_diagonal_.data()});
     for (int i = i0; i <= i1; ++i) {
       wall_side_[i] = wall_diagonal_[i] * wall_change.at(component, position(component, 0, i), y);
     }
@@ -47,6 +48,7 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
     }
     return;
   }
+  mobilise(component, j, k, {lower, upper});
   for (int i = i0; i <= i1; ++i) {
     const double inv = 1 / (1 - near[i] - far[i] - near[i] * gp[i]);
     g[i] = far[i] * inv;

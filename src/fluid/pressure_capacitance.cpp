@@ -12,28 +12,39 @@
 namespace monarch_flight {
 
 WingCapacitance::WingCapacitance(const Grid& grid, const AxisModes& x, const AxisModes& y,
-                                 const Eigen::MatrixXd& complement)
-    : link_(1.0 / grid.z.gap[grid.k_wing]) {
-  findFaces(grid);
-  if (faces() == 0) return;
-  if (!grid.open && static_cast<std::size_t>(faces()) == grid.wing.size()) {
+                                 const WingResponse& response) {
+  findNormalFaces(grid);
+  if (normal_.empty()) return;
+  if (!grid.open && static_cast<std::size_t>(wing_faces_) == grid.wing.size()) {
     throw std::invalid_argument("WingCapacitance: the wing closes the whole plane of a closed box");
   }
-  modes_x_ = x.rows(i0_, static_cast<int>(box_.rows()));
-  modes_y_ = y.rows(j0_, static_cast<int>(box_.cols()));
-  half_.resize(box_.rows(), y.n());
-  assemble(complement);
+  findInPlaneFaces(grid);
+  root_ = Eigen::Map<const Eigen::VectorXd>(list_root_.data(), list_root_.size());
+  jump_.setZero(root_.size());
+  flux_.setZero(root_.size());
+  modes_x_ = x.rows(i0_, static_cast<int>(box_[0].rows()));
+  modes_y_ = y.rows(j0_, static_cast<int>(box_[0].cols()));
+  half_.resize(box_[0].rows(), y.n());
+  inverse_.setZero(root_.size(), root_.size());
+  assembleNormal(response.complement, 1.0 / grid.z.gap[grid.k_wing]);
+  assembleInPlane(response);
   invert();
 }
 
-void WingCapacitance::findFaces(const Grid& grid) {
-  const int nx = grid.x.n(), ny = grid.y.n();
+void WingCapacitance::add(double conductance, double mobility) {
+  list_root_.push_back(std::sqrt(conductance));
+  list_diagonal_.push_back(1 / (1 - mobility));
+}
+
+void WingCapacitance::findNormalFaces(const Grid& grid) {
+  const int nx = grid.x.n(), ny = grid.y.n(), kw = grid.k_wing;
   int i1 = -1, j1 = -1;
   i0_ = nx;
   j0_ = ny;
+  auto changed = [&](int i, int j) { return grid.mobility.at(2, i, j, kw) != 1; };
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
-      if (!grid.isWing(i, j)) continue;
+      if (!changed(i, j)) continue;
       i0_ = std::min(i0_, i);
       i1 = std::max(i1, i);
       j0_ = std::min(j0_, j);
@@ -41,35 +52,53 @@ void WingCapacitance::findFaces(const Grid& grid) {
     }
   }
   if (i1 < 0) return;
-  box_.setZero(i1 - i0_ + 1, j1 - j0_ + 1);
-  std::vector<double> root;
+  for (Eigen::MatrixXd& box : box_) box.setZero(i1 - i0_ + 1, j1 - j0_ + 1);
   for (int j = j0_; j <= j1; ++j) {
     for (int i = i0_; i <= i1; ++i) {
-      if (!grid.isWing(i, j)) continue;
-      face_.push_back((j - j0_) * static_cast<int>(box_.rows()) + i - i0_);
-      root.push_back(std::sqrt(grid.x.width[i] * grid.y.width[j]));
+      if (!changed(i, j)) continue;
+      wing_faces_ += grid.isWing(i, j);
+      normal_.push_back(cell(i, j));
+      add(grid.x.width[i] * grid.y.width[j] / grid.z.gap[kw], grid.mobility.at(2, i, j, kw));
     }
   }
-  root_area_ = Eigen::Map<const Eigen::VectorXd>(root.data(), root.size());
-  jump_.setZero(faces());
-  flux_.setZero(faces());
 }
 
-/// Row by row of the wing: S(rows j, j') = X_j diag(G(:, j')) X_j'^T with
-/// G(a, j') = sum_b phi_b(j) phi_b(j') complement(a, b). No three-dimensional solve is needed.
-void WingCapacitance::assemble(const Eigen::MatrixXd& complement) {
-  const int rows = static_cast<int>(box_.cols()), nbx = static_cast<int>(box_.rows());
+void WingCapacitance::findInPlaneFaces(const Grid& grid) {
+  const int kw = grid.k_wing;
+  for (int side : {0, 1}) {
+    const int k = kw - 1 + side;
+    for (int j = j0_; j < j0_ + box_[0].cols(); ++j) {
+      for (int i = i0_; i < i0_ + box_[0].rows(); ++i) {
+        const double mx = grid.mobility.at(0, i, j, k), my = grid.mobility.at(1, i, j, k);
+        if (mx != 1) {
+          in_plane_.push_back({side, cell(i - 1, j), cell(i, j)});
+          add(grid.y.width[j] * grid.z.width[k] / grid.x.gap[i], mx);
+        }
+        if (my != 1) {
+          in_plane_.push_back({side, cell(i, j - 1), cell(i, j)});
+          add(grid.x.width[i] * grid.z.width[k] / grid.y.gap[j], my);
+        }
+      }
+    }
+  }
+}
+
+/// Row by row of the plane: S(rows j, j') = X_j diag(G(:, j')) X_j'^T with
+/// G(a, j') = sum_b phi_b(j) phi_b(j') complement(a, b), which is 1 - l g without cancellation, for
+/// sum_ab phi_ab(f) phi_ab(g) = delta_fg / area. No three-dimensional solve is needed.
+void WingCapacitance::assembleNormal(const Eigen::MatrixXd& complement, double link) {
+  const int rows = static_cast<int>(box_[0].cols()), nbx = static_cast<int>(box_[0].rows());
   std::vector<int> first(rows + 1, 0);
-  for (int face : face_) ++first[face / nbx + 1];
+  for (int face : normal_) ++first[face / nbx + 1];
   for (int j = 0; j < rows; ++j) first[j + 1] += first[j];
-  std::vector<Eigen::MatrixXd> x_rows(rows);  // modes (rows) by the wing's cells of row j
+  std::vector<Eigen::MatrixXd> x_rows(rows);  // modes (rows) by the faces of row j
   for (int j = 0; j < rows; ++j) {
     x_rows[j].resize(modes_x_.cols(), first[j + 1] - first[j]);
     for (int f = first[j]; f < first[j + 1]; ++f) {
-      x_rows[j].col(f - first[j]) = root_area_[f] * modes_x_.row(face_[f] % nbx).transpose();
+      x_rows[j].col(f - first[j]) =
+          root_[f] / std::sqrt(link) * modes_x_.row(normal_[f] % nbx).transpose();
     }
   }
-  inverse_.setZero(faces(), faces());
   for (int j = 0; j < rows; ++j) {
     const Eigen::MatrixXd g = complement * modes_y_.row(j).asDiagonal() * modes_y_.transpose();
     for (int other = 0; other <= j; ++other) {
@@ -77,34 +106,94 @@ void WingCapacitance::assemble(const Eigen::MatrixXd& complement) {
           x_rows[j].transpose() * (g.col(other).asDiagonal() * x_rows[other]);
     }
   }
+  for (std::size_t f = 0; f < normal_.size(); ++f) inverse_(f, f) += list_diagonal_[f] - 1;
 }
 
-void WingCapacitance::invert() {
-  const int n = faces();
-  int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, inverse_.data(), n);
-  if (info == 0) info = LAPACKE_dpotri(LAPACK_COL_MAJOR, 'L', n, inverse_.data(), n);
-  if (info != 0) {
-    throw std::runtime_error("WingCapacitance: Cholesky failed at face " + std::to_string(info) +
-                             " of " + std::to_string(n));
+/// Column by column: the jumps that answer a unit source of each face.
+void WingCapacitance::assembleInPlane(const WingResponse& response) {
+  const int n = static_cast<int>(normal_.size()), nbx = static_cast<int>(box_[0].rows());
+  Eigen::MatrixXd source, answer;
+  for (std::size_t e = 0; e < in_plane_.size(); ++e) {
+    const Link& link = in_plane_[e];
+    auto mode = [&](int q) { return modes_x_.row(q % nbx).transpose() * modes_y_.row(q / nbx); };
+    source = mode(link.first);
+    source -= mode(link.second);
+    for (int side : {0, 1}) {
+      const Eigen::MatrixXd& own = link.side == 0 ? response.below : response.above;
+      answer = source.cwiseProduct(side == link.side ? own : response.cross);
+      toBox(answer.data(), box_[side]);
+    }
+    takeJumps();
+    const int column = n + static_cast<int>(e);
+    inverse_.row(column) = -root_[column] * jump_.transpose();
+    inverse_(column, column) += list_diagonal_[column];
   }
 }
 
-void WingCapacitance::answer(double* modes) const {
+void WingCapacitance::invert() {
+  const int n = static_cast<int>(root_.size());
+  std::vector<lapack_int> pivots(n);
+  int info = LAPACKE_dsytrf(LAPACK_COL_MAJOR, 'L', n, inverse_.data(), n, pivots.data());
+  if (info == 0)
+    info = LAPACKE_dsytri2(LAPACK_COL_MAJOR, 'L', n, inverse_.data(), n, pivots.data());
+  if (info != 0) {
+    throw std::runtime_error("WingCapacitance: factorisation failed at face " +
+                             std::to_string(info) + " of " + std::to_string(n));
+  }
+}
+
+void WingCapacitance::toBox(const double* modes, Eigen::MatrixXd& box) const {
   const int nx = static_cast<int>(modes_x_.cols()), ny = static_cast<int>(modes_y_.cols());
-  const int bx = static_cast<int>(box_.rows()), by = static_cast<int>(box_.cols()), n = faces();
+  const int bx = static_cast<int>(box.rows()), by = static_cast<int>(box.cols());
   product(CblasNoTrans, CblasNoTrans, bx, ny, nx, 1.0, modes_x_.data(), bx, modes, nx, half_.data(),
           bx);
   product(CblasNoTrans, CblasTrans, bx, by, ny, 1.0, half_.data(), bx, modes_y_.data(), by,
-          box_.data(), bx);
-  for (int f = 0; f < n; ++f) jump_[f] = root_area_[f] * box_.data()[face_[f]];
-  cblas_dsymv(CblasColMajor, CblasLower, n, link_, inverse_.data(), n, jump_.data(), 1, 0.0,
-              flux_.data(), 1);
-  box_.setZero();
-  for (int f = 0; f < n; ++f) box_.data()[face_[f]] = root_area_[f] * flux_[f];
-  product(CblasNoTrans, CblasNoTrans, bx, ny, by, 1.0, box_.data(), bx, modes_y_.data(), by,
+          box.data(), bx);
+}
+
+void WingCapacitance::toModes(const Eigen::MatrixXd& box, double* modes) const {
+  const int nx = static_cast<int>(modes_x_.cols()), ny = static_cast<int>(modes_y_.cols());
+  const int bx = static_cast<int>(box.rows()), by = static_cast<int>(box.cols());
+  product(CblasNoTrans, CblasNoTrans, bx, ny, by, 1.0, box.data(), bx, modes_y_.data(), by,
           half_.data(), bx);
   product(CblasTrans, CblasNoTrans, nx, ny, bx, 1.0, modes_x_.data(), bx, half_.data(), bx, modes,
           nx);
+}
+
+/// sqrt(c) times the jump of the pressures in the box, of every face.
+void WingCapacitance::takeJumps() const {
+  const double* down = box_[0].data();
+  const double* up = box_[1].data();
+  const std::size_t n = normal_.size();
+  for (std::size_t f = 0; f < n; ++f) jump_[f] = root_[f] * (down[normal_[f]] - up[normal_[f]]);
+  for (std::size_t e = 0; e < in_plane_.size(); ++e) {
+    const double* p = in_plane_[e].side == 0 ? down : up;
+    jump_[n + e] = root_[n + e] * (p[in_plane_[e].first] - p[in_plane_[e].second]);
+  }
+}
+
+void WingCapacitance::answer(double* down, double* up) const {
+  toBox(down, box_[0]);
+  toBox(up, box_[1]);
+  takeJumps();
+  const int unknowns = static_cast<int>(root_.size());
+  cblas_dsymv(CblasColMajor, CblasLower, unknowns, 1.0, inverse_.data(), unknowns, jump_.data(), 1,
+              0.0, flux_.data(), 1);
+  for (Eigen::MatrixXd& box : box_) box.setZero();
+  const std::size_t n = normal_.size();
+  for (std::size_t f = 0; f < n; ++f) {
+    const double source = root_[f] * flux_[f];
+    box_[0].data()[normal_[f]] += source;
+    box_[1].data()[normal_[f]] -= source;
+  }
+  for (std::size_t e = 0; e < in_plane_.size(); ++e) {
+    const double source = root_[n + e] * flux_[n + e];
+    double* s = box_[in_plane_[e].side].data();
+    s[in_plane_[e].first] += source;
+    s[in_plane_[e].second] -= source;
+  }
+  toModes(box_[0], down);
+  toModes(box_[1], up);
 }
 
 }  // namespace monarch_flight

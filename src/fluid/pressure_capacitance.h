@@ -2,42 +2,56 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "fluid/pressure_columns.h"
 #include "fluid/pressure_modes.h"
 
 namespace monarch_flight {
 
-/// The wing as a low-rank change of the separable operator: on the n_w faces of the wing the flux
-/// through the plane is taken away.
-/// With a_f the face areas, l the conductance per area of the plane's faces and phi the modes,
-///   S_fg = sqrt(a_f a_g) sum_ab phi_ab(f) phi_ab(g) (1 - l g_ab)
-/// is symmetric positive definite (Sherman-Morrison-Woodbury). A jump p_d - p_u found without the
-/// wing is answered by the dipole sources q = l sqrt(a) S^-1 sqrt(a) (p_d - p_u), which make the
-/// flux that the separable operator sends through the wing vanish from the balance of its
-/// neighbours.
+/// The wing as a low-rank change of the separable operator: on the faces f whose mobility m_f is
+/// not 1 (the wing's, which let nothing through, and those beside its rim) the flux is m_f times
+/// that of the separable operator.
+/// With c_f = area / gap and J_f the jump of pressure across f, the change is a dipole source
+/// (1 - m_f) c_f J_f. J = J0 + G s, J0 the jumps and G the answer to sources s without the change,
+/// so that t = s / sqrt(c) solves  S t = sqrt(c) J0,  S = diag(1 / (1 - m)) - sqrt(c) G sqrt(c)
+/// (Sherman-Morrison-Woodbury). S is symmetric; its blocks with m = 0 are positive definite, those
+/// with m > 1 negative definite.
 class WingCapacitance {
  public:
-  /// `complement`: 1 - l g per mode (nx x ny). Throws std::invalid_argument when the wing closes
-  /// the whole plane of a closed box (two separate domains), std::runtime_error when S cannot be
-  /// factored.
+  /// Throws std::invalid_argument when the wing closes the whole plane of a closed box (two
+  /// separate domains), std::runtime_error when S cannot be factored.
   WingCapacitance(const Grid& grid, const AxisModes& x, const AxisModes& y,
-                  const Eigen::MatrixXd& complement);
-  int faces() const { return static_cast<int>(root_area_.size()); }
-  /// Jumps to dipole sources, both per mode (nx x ny), in place. Allocates nothing; one call at a
-  /// time.
-  void answer(double* modes) const;
+                  const WingResponse& response);
+  bool empty() const { return root_.size() == 0; }
+  int wingFaces() const { return wing_faces_; }
+  /// Pressures below and above the wing's plane to sources there, all per mode (nx x ny), in place.
+  /// Allocates nothing; one call at a time.
+  void answer(double* down, double* up) const;
 
  private:
-  void findFaces(const Grid& grid);
-  void assemble(const Eigen::MatrixXd& complement);
+  /// A face between two cells of the wing's bounding box (x fastest).
+  struct Link {
+    int side, first, second;  ///< side 0: below the plane, 1: above, both ends on that side
+  };
+  void findNormalFaces(const Grid& grid);
+  void findInPlaneFaces(const Grid& grid);
+  void add(double conductance, double mobility);
+  void assembleNormal(const Eigen::MatrixXd& complement, double link);
+  void assembleInPlane(const WingResponse& response);
   void invert();
+  void toBox(const double* modes, Eigen::MatrixXd& box) const;
+  void toModes(const Eigen::MatrixXd& box, double* modes) const;
+  void takeJumps() const;
+  int cell(int i, int j) const { return (j - j0_) * static_cast<int>(box_[0].rows()) + i - i0_; }
 
-  double link_;                         ///< l [1/m]
-  int i0_ = 0, j0_ = 0;                 ///< first cell of the wing's bounding box
-  std::vector<int> face_;               ///< position of each face in the box, x fastest
-  Eigen::VectorXd root_area_;           ///< sqrt(a_f) [m]
-  Eigen::MatrixXd modes_x_, modes_y_;   ///< modes on the box: cells x modes
-  Eigen::MatrixXd inverse_;             ///< S^-1, lower triangle
-  mutable Eigen::MatrixXd half_, box_;  ///< scratch
+  int wing_faces_ = 0;
+  int i0_ = 0, j0_ = 0;         ///< first cell of the bounding box
+  std::vector<int> normal_;     ///< faces of the plane, between the same cell of both sides
+  std::vector<Link> in_plane_;  ///< faces across the rim
+  std::vector<double> list_root_, list_diagonal_;
+  Eigen::VectorXd root_;               ///< sqrt(c_f) [m^1/2], first of `normal_`, then `in_plane_`
+  Eigen::MatrixXd modes_x_, modes_y_;  ///< modes on the box: cells x modes
+  Eigen::MatrixXd inverse_;            ///< S^-1, lower triangle
+  mutable Eigen::MatrixXd half_, box_[2];  ///< scratch
   mutable Eigen::VectorXd jump_, flux_;
 };
 

@@ -85,8 +85,11 @@ void PressureColumns::factor(const SpectrumBlock& q, int b, const Eigen::ArrayXd
   }
 }
 
-Eigen::MatrixXd PressureColumns::jumpComplement() const {
-  return Eigen::Map<const Eigen::MatrixXd>(complement_.data(), nx_, ny_);
+WingResponse PressureColumns::wingResponse() const {
+  auto modes = [&](const Eigen::ArrayXd& a) {
+    return Eigen::Map<const Eigen::MatrixXd>(a.data(), nx_, ny_);
+  };
+  return {modes(below_), modes(cross_), modes(above_), modes(complement_)};
 }
 
 void PressureColumns::removeMean(double* spectrum) const {
@@ -159,15 +162,14 @@ void PressureColumns::meet(const double* spectrum) const {
   if (slab_.k0() == k_wing_) slab_.exchangeBelow(r_u_.data(), r_d_.data(), plane);
 }
 
-void PressureColumns::jump(double* jump) const {
-  Eigen::Map<Eigen::ArrayXd>(jump, r_d_.size()) =
-      (below_ - cross_) * r_d_ - (above_ - cross_) * r_u_;
+void PressureColumns::wingPressures(double* down, double* up) const {
+  Eigen::Map<Eigen::ArrayXd>(down, r_d_.size()) = below_ * r_d_ + cross_ * r_u_;
+  Eigen::Map<Eigen::ArrayXd>(up, r_d_.size()) = cross_ * r_d_ + above_ * r_u_;
 }
 
-void PressureColumns::addDipole(const double* source) const {
-  const Eigen::Map<const Eigen::ArrayXd> s(source, r_d_.size());
-  r_d_ += s;
-  r_u_ -= s;
+void PressureColumns::addSources(const double* down, const double* up) const {
+  r_d_ += Eigen::Map<const Eigen::ArrayXd>(down, r_d_.size());
+  r_u_ += Eigen::Map<const Eigen::ArrayXd>(up, r_d_.size());
 }
 
 void PressureColumns::solveAtWing(double* spectrum) const {

@@ -7,6 +7,13 @@
 
 namespace monarch_flight {
 
+/// Per mode of the plane (nx x ny): what the columns answer at the wing's plane. With unit sources
+/// r_d, r_u: p_d = below r_d + cross r_u, p_u = cross r_d + above r_u; `complement` is 1 - l g, g
+/// the jump p_d - p_u that answers a unit source below and a unit sink above.
+struct WingResponse {
+  Eigen::MatrixXd below, cross, above, complement;
+};
+
 /// The tridiagonal systems in z, one per mode (a, b) of the plane:
 ///   (Kz + (lambda_a + lambda_b) Wz) p = r,   Kz: face conductances 1 / gap, Wz = diag(width),
 /// eliminated from both ends towards the two cells next to the wing's plane (below: k_wing - 1,
@@ -21,9 +28,7 @@ class PressureColumns {
  public:
   PressureColumns(const Grid& grid, const Slab& slab, const AxisModes& x, const AxisModes& y,
                   std::vector<SpectrumBlock> blocks);
-  /// 1 - l g per mode, g: jump p_d - p_u answering a unit source below and sink above.
-  Eigen::MatrixXd jumpComplement() const;
-  double wingConductance() const { return link_[k_wing_]; }  ///< l [1/m]
+  WingResponse wingResponse() const;
 
   /// The constant mode's r made to sum to zero (a multiple of width taken off). Closed outer faces
   /// only.
@@ -34,10 +39,10 @@ class PressureColumns {
   void meet(const double* spectrum) const;
   /// True where r_d and r_u are known after `meet`.
   bool touchesWing() const { return slab_.k0() <= k_wing_ && slab_.k1() >= k_wing_; }
-  /// jump = p_d - p_u per mode as the eliminated system stands.
-  void jump(double* jump) const;
-  /// r_d += source, r_u -= source.
-  void addDipole(const double* source) const;
+  /// p_d and p_u per mode as the eliminated system stands.
+  void wingPressures(double* down, double* up) const;
+  /// r_d += down, r_u += up.
+  void addSources(const double* down, const double* up) const;
   /// Solves at the wing's plane, then back-substitution outwards.
   void substitute(double* spectrum) const;
   /// The constant mode shifted to zero volume mean. Closed outer faces only.

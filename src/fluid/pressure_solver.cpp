@@ -20,9 +20,10 @@ struct PressureSolver::Impl {
         y(g.y, g.open),
         transform(x, y, slab.planes()),
         columns(g, slab, x, y, transform.blocks()),
-        wing(g, x, y, columns.jumpComplement()),
+        wing(g, x, y, columns.wingResponse()),
         spectrum(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n() * slab.planes())),
-        wing_plane(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())) {}
+        down(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())),
+        up(down) {}
 
   const Grid grid;
   const Slab slab;
@@ -30,7 +31,7 @@ struct PressureSolver::Impl {
   const PlaneTransform transform;
   const PressureColumns columns;
   const WingCapacitance wing;
-  Eigen::VectorXd spectrum, wing_plane;  // scratch
+  Eigen::VectorXd spectrum, down, up;  // scratch
   double setup_seconds = 0.0;
 };
 
@@ -46,19 +47,21 @@ PressureSolver::PressureSolver(const Grid& grid, const Slab& slab) {
 
 PressureSolver::~PressureSolver() = default;
 
-// 1. modes of x and y; 2. z from both ends to the wing's plane; 3. the wing's answer to the jump
-// there (by each process that touches the plane, alike); 4. z back outwards; 5. modes to cells.
+// 1. modes of x and y; 2. z from both ends to the wing's plane; 3. the wing's answer to the
+// pressures there (by each process that touches the plane, alike); 4. z back outwards; 5. modes to
+// cells.
 void PressureSolver::solve(double* b_to_p) const {
   double* spectrum = impl_->spectrum.data();
-  double* wing_plane = impl_->wing_plane.data();
   impl_->transform.forwardNegative(b_to_p, spectrum);
   if (!impl_->grid.open) impl_->columns.removeMean(spectrum);
   impl_->columns.eliminate(spectrum);
   impl_->columns.meet(spectrum);
-  if (wingFaces() > 0 && impl_->columns.touchesWing()) {
-    impl_->columns.jump(wing_plane);
-    impl_->wing.answer(wing_plane);
-    impl_->columns.addDipole(wing_plane);
+  if (!impl_->wing.empty() && impl_->columns.touchesWing()) {
+    double* down = impl_->down.data();
+    double* up = impl_->up.data();
+    impl_->columns.wingPressures(down, up);
+    impl_->wing.answer(down, up);
+    impl_->columns.addSources(down, up);
   }
   impl_->columns.substitute(spectrum);
   if (!impl_->grid.open) impl_->columns.centre(spectrum);
@@ -71,34 +74,34 @@ void PressureSolver::apply(const double* p, double* y) const {
   const std::ptrdiff_t row = nx, plane = static_cast<std::ptrdiff_t>(nx) * ny;
   std::fill(y, y + plane * nz, 0.0);
   // Flux from cell c - step to cell c through the face in front of c, n cells along the line.
-  auto sweep = [&](std::ptrdiff_t c, std::ptrdiff_t step, const Axis& axis, double area) {
+  auto sweep = [&](std::ptrdiff_t c, std::ptrdiff_t step, const Axis& axis, double area,
+                   const auto& mobility) {
     if (g.open) y[c] -= area / axis.gap.front() * p[c];
     for (int i = 1; i < axis.n(); ++i) {
       c += step;
-      const double flux = area / axis.gap[i] * (p[c - step] - p[c]);
+      const double flux = mobility(i) * area / axis.gap[i] * (p[c - step] - p[c]);
       y[c] += flux;
       y[c - step] -= flux;
     }
     if (g.open) y[c] -= area / axis.gap.back() * p[c];
   };
   for (int k = 0; k < nz; ++k) {
-    for (int j = 0; j < ny; ++j) sweep(k * plane + j * row, 1, g.x, g.y.width[j] * g.z.width[k]);
-    for (int i = 0; i < nx; ++i) sweep(k * plane + i, row, g.y, g.x.width[i] * g.z.width[k]);
+    for (int j = 0; j < ny; ++j)
+      sweep(k * plane + j * row, 1, g.x, g.y.width[j] * g.z.width[k],
+            [&](int i) { return g.mobility.at(0, i, j, k); });
+    for (int i = 0; i < nx; ++i)
+      sweep(k * plane + i, row, g.y, g.x.width[i] * g.z.width[k],
+            [&](int j) { return g.mobility.at(1, i, j, k); });
   }
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
-      const double area = g.x.width[i] * g.y.width[j];
-      sweep(j * row + i, plane, g.z, area);
-      if (!g.isWing(i, j)) continue;
-      const std::ptrdiff_t up = g.k_wing * plane + j * row + i;
-      const double flux = area / g.z.gap[g.k_wing] * (p[up - plane] - p[up]);
-      y[up] -= flux;
-      y[up - plane] += flux;
+      sweep(j * row + i, plane, g.z, g.x.width[i] * g.y.width[j],
+            [&](int k) { return g.mobility.at(2, i, j, k); });
     }
   }
 }
 
-int PressureSolver::wingFaces() const { return impl_->wing.faces(); }
+int PressureSolver::wingFaces() const { return impl_->wing.wingFaces(); }
 double PressureSolver::setupSeconds() const { return impl_->setup_seconds; }
 
 }  // namespace monarch_flight

@@ -39,12 +39,18 @@ void subtractGradient(const Grid& grid, const Layout& l, const double* phi, doub
       if (j > 0) {
         for (int i = 0; i < l.nx; ++i) s[i] -= gy * (q[i] - q[i - py]);
       }
-      if (k > 0 && k != grid.k_wing) {
+      if (k > 0) {
         for (int i = 0; i < l.nx; ++i) w[i] -= gz * (q[i] - q[i - pz]);
-      } else if (k > 0) {
-        for (int i = 0; i < l.nx; ++i) {
-          if (!grid.isWing(i, j)) w[i] -= gz * (q[i] - q[i - pz]);
-        }
+      }
+      if (const double* m = grid.mobility.row(0, j, k)) {
+        for (int i = 1; i < l.nx; ++i)
+          u[i] -= (m[i] - 1) * scale / grid.x.gap[i] * (q[i] - q[i - 1]);
+      }
+      if (const double* m = j > 0 ? grid.mobility.row(1, j, k) : nullptr) {
+        for (int i = 0; i < l.nx; ++i) s[i] -= (m[i] - 1) * gy * (q[i] - q[i - py]);
+      }
+      if (const double* m = grid.mobility.row(2, j, k)) {
+        for (int i = 0; i < l.nx; ++i) w[i] -= (m[i] - 1) * gz * (q[i] - q[i - pz]);
       }
     }
   }

@@ -48,7 +48,8 @@ void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, 
         double df = 0;
         for (int k = std::max(kw - 1, l.k0); k <= std::min(kw, l.k1 - 1); ++k) {
           const double* q = phi + (k - l.k0) * pz + static_cast<std::ptrdiff_t>(j) * l.nx + i;
-          const double u = v.c[c][l.at(i, j, k)] - scale / gap * (q[0] - q[-s]);
+          const double u =
+              v.c[c][l.at(i, j, k)] - grid.mobility.at(c, i, j, k) * scale / gap * (q[0] - q[-s]);
           df += mu * (u - u_wall) / (0.5 * grid.z.width[k]) * area;
         }
         f[c] += df;

@@ -6,6 +6,8 @@
 namespace monarch_flight {
 namespace {
 
+constexpr std::size_t kLargestPicture = 1000000;  // facets or vortex points of one message
+
 using Array3 = boost::array<double, 3>;
 using Array9 = boost::array<double, 9>;
 
@@ -47,11 +49,12 @@ CouplingKey toMessage(const ExchangeKey& key) {
   out.step = key.step;
   out.iteration = key.iteration;
   out.phase = static_cast<std::uint8_t>(key.phase);
+  out.reset = key.reset;
   return out;
 }
 
 ExchangeKey fromMessage(const CouplingKey& key) {
-  return {key.run, key.step, key.iteration, static_cast<Phase>(key.phase)};
+  return {key.run, key.step, key.iteration, static_cast<Phase>(key.phase), key.reset};
 }
 
 InterfaceState toMessage(const Interface& interface) {
@@ -223,6 +226,20 @@ IterationRecord fromMessage(const SubIteration& record) {
   return out;
 }
 
+IgnoredCounts toMessage(const IgnoredMessages& ignored) {
+  IgnoredCounts out;
+  out.late = ignored.late;
+  out.repeated = ignored.repeated;
+  out.foreign = ignored.foreign;
+  out.malformed = ignored.malformed;
+  out.forged = ignored.forged;
+  return out;
+}
+
+IgnoredMessages fromMessage(const IgnoredCounts& ignored) {
+  return {ignored.late, ignored.repeated, ignored.foreign, ignored.malformed, ignored.forged};
+}
+
 std::string problem(const ParticipantRequest& request) {
   return problem(request.protocol, request.key);
 }
@@ -234,6 +251,8 @@ std::string problem(const ParticipantReply& reply) {
   if (numbers != 0 && numbers != 72) {
     return "load operator of " + std::to_string(numbers) + " numbers, not 72";
   }
+  const std::size_t picture = std::max(reply.surface.size(), reply.vortices.size());
+  if (picture > kLargestPicture) return "a picture of " + std::to_string(picture) + " parts";
   return problem(reply.protocol, reply.key);
 }
 

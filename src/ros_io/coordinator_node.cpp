@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "monarch_flight/ros_io/flight_control.h"
 #include "monarch_flight/ros_io/flight_run.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
@@ -10,6 +11,8 @@
 namespace monarch_flight {
 namespace {
 
+const ros::WallDuration kHeldWait(0.01);  // of a held run, for messages; then it looks for orders
+const ros::WallDuration kGreetings(0.2);  // between signs of life of a held run
 constexpr Role kRoles[] = {Role::kFluid, Role::kFlight, Role::kWing};
 
 std::uint64_t randomRunId() {
@@ -29,8 +32,11 @@ CoordinatorNode::CoordinatorNode(const StopFlag& stop)
   run_.id = randomRunId();
   run_.limits = limitsFor(case_.watchdog_s);
   run_.stop = &stop_;
+  if (Token::fromEnvironment().empty()) {
+    ROS_WARN("%s is not set: every node of this master can take part in the run", Token::kVariable);
+  }
   for (Role role : kRoles) {
-    const LockstepIdentity identity{role, case_.name, case_.sha256};
+    const LockstepIdentity identity{role, case_.name, case_.sha256, Token::fromEnvironment()};
     participants_[static_cast<std::size_t>(role)] =
         std::make_unique<RosParticipant>(node_, identity, run_);
   }
@@ -54,8 +60,19 @@ int CoordinatorNode::fly() {
   const std::string out = outputDirectory(parameters_, case_);
   FlightRun run(case_, out, !parameters_.resume.empty(), {&topics});
   node_.setParam(kCheckpointsKey, checkpointFolder(out));
-  FlyUntil control(stop_);
+  FlightControl control(
+      node_, case_.time, parameters_.paused, [this] { keepAlive(); }, stop_);
+  run.addSink(control);
   return run.fly(run_.id, *participants_[0], *participants_[1], *participants_[2], control, stop_);
+}
+
+void CoordinatorNode::keepAlive() {
+  run_.queue.callAvailable(kHeldWait);
+  participants_[0]->requireEveryone(" while the run is held");
+  const ros::WallTime now = ros::WallTime::now();
+  if (now < greeted_ + kGreetings) return;
+  for (const auto& participant : participants_) participant->greet();
+  greeted_ = now;
 }
 
 void CoordinatorNode::dismiss() noexcept {
@@ -72,8 +89,8 @@ void CoordinatorNode::dismiss() noexcept {
 
 void CoordinatorNode::reportIgnored() const {
   for (const auto& participant : participants_) {
-    const LockstepCounters& counters = participant->counters();
-    if (counters.any()) {
+    const IgnoredMessages counters = participant->ignored();
+    if (counters.total() > 0) {
       ROS_INFO("messages of %s that were ignored: %s", participant->name().c_str(),
                counters.describe().c_str());
     }

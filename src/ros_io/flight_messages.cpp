@@ -111,15 +111,6 @@ FlightState flightState(const CommittedStep& step, const ros::Time& stamp) {
   return out;
 }
 
-diagnostic_msgs::KeyValue entry(const char* key, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  diagnostic_msgs::KeyValue out;
-  out.key = key;
-  out.value = text;
-  return out;
-}
-
 template <class Message>
 StampedMessage prototype(const char* topic, bool latched = false) {
   return {topic, ros::Time(), Message(), latched};
@@ -236,45 +227,6 @@ void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& sta
     out.push_back(
         {topics::kVortices, stamp, vortexCloud(step.vortices, insect, step.angles, stamp)});
   }
-}
-
-diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep& step,
-                                                             const ros::Time& stamp) const {
-  using diagnostic_msgs::DiagnosticStatus;
-  DiagnosticStatus coupling, solvers;
-  coupling.name = "coordinator: coupling";
-  solvers.name = "coordinator: solvers";
-  coupling.hardware_id = solvers.hardware_id = "monarch_flight";
-  coupling.level = step.converged ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
-  coupling.message = !step.converged   ? "step not converged"
-                     : step.prescribed ? "prescribed step"
-                                       : "converged";
-  coupling.values = {entry("step", step.step), entry("t [s]", step.t),
-                     entry("sub-iterations", static_cast<double>(step.iterations.size())),
-                     entry("evaluations of the air", step.fluid_evaluations),
-                     entry("added-mass ratio", step.added_mass_ratio),
-                     entry("work of the air, fluid's side [J]", step.work_fluid),
-                     entry("work of the air, structure's side [J]", step.work_structure)};
-  if (!step.iterations.empty()) {
-    const IterationRecord& last = step.iterations.back();
-    coupling.values.push_back(entry("residual x/c", last.residual[0]));
-    coupling.values.push_back(entry("residual z/c", last.residual[1]));
-    coupling.values.push_back(entry("residual theta_B [rad]", last.residual[2]));
-    coupling.values.push_back(entry("residual theta_R [rad]", last.residual[3]));
-    coupling.values.push_back(entry("load residual", last.load_residual));
-    coupling.values.push_back(entry("relaxation", last.relaxation));
-  }
-  const bool fast = step.fluid.courant > 0.9 * case_.grid.courant_limit;
-  solvers.level = fast ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
-  solvers.message = fast ? "Courant number close to its limit" : "running";
-  solvers.values = {
-      entry("Courant number", step.fluid.courant), entry("divergence", step.fluid.divergence),
-      entry("fluid [s]", step.wall_s[0]),          entry("flight [s]", step.wall_s[1]),
-      entry("wing [s]", step.wall_s[2]),           entry("exchange [s]", step.exchange_s)};
-  diagnostic_msgs::DiagnosticArray out;
-  out.header.stamp = stamp;
-  out.status = {coupling, solvers};
-  return out;
 }
 
 void FlightMessages::memory(StateVisitor& state) {

@@ -54,8 +54,10 @@ int FlightRun::fly(std::uint64_t run_id, Participant& fluid, Participant& flight
                    RunControl& control, const StopFlag& stop) {
   std::vector<StepSink*> sinks = {&progress_};
   if (messages_) sinks.push_back(messages_.get());
-  sinks.push_back(&files_);  // the last: the summary then knows of the failures of the others
-  const RunResult result = runCase(case_, run_id, fluid, flight, wing, sinks, control, &checkpoints_);
+  sinks.push_back(&files_);  // the summary knows of the failures of those before it
+  sinks.insert(sinks.end(), last_.begin(), last_.end());
+  const RunResult result = runCase(case_, run_id, fluid, flight, wing, sinks, control,
+                                   &checkpoints_);
   if (result.complete) {
     std::cout << "flight complete: " << files_.directory().path() << std::endl;
     return kExitComplete;

@@ -13,11 +13,6 @@ LockstepLimits limitsFor(double watchdog_s) {
   return limits;
 }
 
-std::string LockstepCounters::describe() const {
-  return std::to_string(late) + " late, " + std::to_string(repeated) + " repeated, " +
-         std::to_string(foreign) + " foreign, " + std::to_string(malformed) + " malformed";
-}
-
 std::string inSeconds(double s) {
   const std::string text = std::to_string(s);
   return text.substr(0, text.find('.') + 2) + " s";

@@ -26,10 +26,12 @@ RosParticipant::RosParticipant(const ros::NodeHandle& node, const LockstepIdenti
     : identity_(identity),
       run_(run),
       node_(node, roleName(identity.role)),
-      hello_out_(node_, "coordinator_hello", true, run.queue),
-      requests_(node_, "request", false, run.queue),
-      hello_in_(subscribeOn(run.queue, node_, "hello", &RosParticipant::onHello, this)),
-      replies_(subscribeOn(run.queue, node_, "reply", &RosParticipant::onReply, this)) {
+      hello_out_(node_, "coordinator_hello", true, run.queue, identity.token),
+      requests_(node_, "request", false, run.queue, identity.token),
+      hello_in_(subscribeOn(run.queue, node_, "hello", identity.token, counters_.forged,
+                            &RosParticipant::onHello, this)),
+      replies_(subscribeOn(run.queue, node_, "reply", identity.token, counters_.forged,
+                           &RosParticipant::onReply, this)) {
   run_.participants.push_back(this);
 }
 
@@ -43,7 +45,7 @@ bool RosParticipant::connected() const { return answer_ && requests_.heardBy(ans
 bool RosParticipant::ready() const { return connected() && replies_.getNumPublishers() > 0; }
 
 void RosParticipant::connect() {
-  hello_out_.publish(makeHello(identity_, run_.id));
+  greet();
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(run_.limits.connect_s);
   while (!ready()) {
     run_.queue.callAvailable(slice(deadline));
@@ -56,9 +58,13 @@ void RosParticipant::connect() {
     }
     if (*run_.stop || !ros::ok()) throw ExchangeError("interrupted while waiting for " + name());
     if (ros::WallTime::now() >= deadline) {
-      throw ExchangeError(name() + " did not answer the handshake within " +
-                          inSeconds(run_.limits.connect_s) + ": is it running, in namespace " +
-                          node_.getNamespace() + " of this master?");
+      throw ExchangeError(
+          name() + " did not answer the handshake within " + inSeconds(run_.limits.connect_s) +
+          ": is it running, in namespace " + node_.getNamespace() + " of this master" +
+          (counters_.forged > 0
+               ? ", with the same " + std::string(Token::kVariable) + " (" +
+                     std::to_string(counters_.forged) + " messages had another seal)?"
+               : "?"));
     }
   }
 }
@@ -70,11 +76,25 @@ void RosParticipant::requireAlive(const ExchangeKey& key) const {
     throw ExchangeError(name() + " is lost (connection closed) at " + describe(key));
   }
   if (key.phase == Phase::kAbort) return;
-  for (const RosParticipant* other : run_.participants) {
-    if (!other->connected()) {
-      throw ExchangeError(other->name() + " is lost (connection closed)" + where);
-    }
+  requireEveryone(where);
+}
+
+void RosParticipant::requireEveryone(const std::string& where) const {
+  for (const RosParticipant* one : run_.participants) {
+    if (!one->connected())
+      throw ExchangeError(one->name() + " is lost (connection closed)" + where);
   }
+}
+
+void RosParticipant::greet() {
+  Hello hello = makeHello(identity_, run_.id);
+  hello_out_.publish(hello);
+}
+
+IgnoredMessages RosParticipant::ignored() const {
+  IgnoredMessages all = counters_;
+  all += counters_there_;
+  return all;
 }
 
 double RosParticipant::limitOf(Phase phase) const {
@@ -84,13 +104,14 @@ double RosParticipant::limitOf(Phase phase) const {
 }
 
 Reply RosParticipant::exchange(const Request& request) {
-  const ParticipantRequest message = toMessage(request);
+  ParticipantRequest message = toMessage(request);
   pending_ = message.key;
   reply_.reset();
   run_.queue.callAvailable();  // takes note of nodes that have gone since the last exchange
   requireAlive(request.key);
   requests_.publish(message);
   await(message, request.key);
+  counters_there_ = fromMessage(reply_->ignored);
   Reply reply = fromMessage(*reply_);
   if (reply.error.empty() && !(finite(reply.interface) && reply.loads.finite())) {
     reply.error = name() + " answered a number that is not finite at " + describe(reply.key);
@@ -98,12 +119,11 @@ Reply RosParticipant::exchange(const Request& request) {
   return reply;
 }
 
-void RosParticipant::await(const ParticipantRequest& message, const ExchangeKey& key) {
+void RosParticipant::await(ParticipantRequest& message, const ExchangeKey& key) {
   const double limit = limitOf(key.phase);
   const ros::WallTime begin = ros::WallTime::now();
   const ros::WallTime deadline = begin + ros::WallDuration(limit);
-  const ros::WallTime halfway = begin + ros::WallDuration(0.5 * limit);
-  bool again = false;
+  ros::WallDuration patience(limit / 8.0);  // then it is asked again: after 1/8, 1/4, 1/2
   std::optional<ros::WallTime> stopped;  // when the interrupt was seen
   while (true) {
     run_.queue.callAvailable(slice(deadline));
@@ -119,9 +139,9 @@ void RosParticipant::await(const ParticipantRequest& message, const ExchangeKey&
                           inSeconds(limit) +
                           " (watchdog); messages ignored so far: " + counters_.describe());
     }
-    if (!again && now >= halfway) {
+    if (now >= begin + patience) {
       requests_.publish(message);
-      again = true;
+      patience += patience;
     }
   }
 }

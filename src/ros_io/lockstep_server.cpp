@@ -12,8 +12,9 @@ namespace {
 const ros::WallDuration kSlice(0.1);
 
 // Requests of a run come in this order.
-std::tuple<std::uint32_t, std::uint8_t, std::uint32_t> order(const CouplingKey& key) {
-  return std::make_tuple(key.step, key.phase, key.iteration);
+std::tuple<std::uint32_t, std::uint32_t, std::uint8_t, std::uint32_t> order(
+    const CouplingKey& key) {
+  return std::make_tuple(key.reset, key.step, key.phase, key.iteration);
 }
 
 }  // namespace
@@ -26,10 +27,12 @@ LockstepServer::LockstepServer(const ros::NodeHandle& node, const LockstepIdenti
       limits_(limits),
       stop_(stop),
       node_(node, roleName(identity.role)),
-      hello_out_(node_, "hello", true, queue_),
-      replies_(node_, "reply", false, queue_),
-      hello_in_(subscribeOn(queue_, node_, "coordinator_hello", &LockstepServer::onHello, this)),
-      requests_(subscribeOn(queue_, node_, "request", &LockstepServer::onRequest, this)) {}
+      hello_out_(node_, "hello", true, queue_, identity.token),
+      replies_(node_, "reply", false, queue_, identity.token),
+      hello_in_(subscribeOn(queue_, node_, "coordinator_hello", identity.token, counters_.forged,
+                            &LockstepServer::onHello, this)),
+      requests_(subscribeOn(queue_, node_, "request", identity.token, counters_.forged,
+                            &LockstepServer::onRequest, this)) {}
 
 bool LockstepServer::coordinatorListens() const {
   return coordinator_ && replies_.heardBy(coordinator_->node);
@@ -81,19 +84,26 @@ void LockstepServer::waitForCoordinator() {
     if (stop_ || !ros::ok()) throw ExchangeError("interrupted while waiting for the coordinator");
     if (ros::WallTime::now() > deadline) {
       throw ExchangeError("no coordinator appeared within " + inSeconds(limits_.connect_s) +
-                          ": is it running, in the same namespace of this master?");
+                          ": is it running, in the same namespace of this master, with the same " +
+                          Token::kVariable + "? (" + std::to_string(counters_.forged) +
+                          " messages had another seal)");
     }
   }
 }
 
 void LockstepServer::onHello(const HelloConstPtr& hello) {
   if (started_) {
-    ++(hello->run == coordinator_->run ? counters_.repeated : counters_.foreign);
+    if (hello->run == coordinator_->run) {
+      last_heard_ = ros::WallTime::now();  // a paused run
+    } else {
+      ++counters_.foreign;
+    }
     return;
   }
   coordinator_ = hello;
   refusal_ = disagreement(identity_, *hello);
-  hello_out_.publish(makeHello(identity_, hello->run, refusal_));
+  Hello answer = makeHello(identity_, hello->run, refusal_);
+  hello_out_.publish(answer);
 }
 
 void LockstepServer::refuse() {
@@ -129,23 +139,54 @@ void LockstepServer::onRequest(const ParticipantRequestConstPtr& request) {
   last_heard_ = ros::WallTime::now();
   if (key.phase == CouplingKey::ABORT) {
     ended_ = true;
-    replies_.publish(toMessage(answer(fromMessage(*request))));
+    ParticipantReply farewell = toMessage(answer(fromMessage(*request)));
+    replies_.publish(farewell);
     return;
   }
+  if (key.phase == CouplingKey::CHECKPOINT) return keep(*request);
   if (started_ && order(key) < order(cache_.key)) {
     ++counters_.late;
-    return;
-  }
-  if (started_ && order(key) == order(cache_.key)) {
+  } else if (started_ && order(key) == order(cache_.key)) {
     ++counters_.repeated;
+    reply(cache_);
+  } else if (!failure_.error.empty() && order(key) == order(failure_.key)) {
+    ++counters_.repeated;
+    reply(failure_);
   } else {
-    cache_ = toMessage(answer(fromMessage(*request)));
-    cache_.key = key;
-    started_ = true;
-    iterating_ = iterating_ || key.phase != CouplingKey::START;
-    last_heard_ = ros::WallTime::now();
+    compute(*request);
   }
-  replies_.publish(cache_);
+}
+
+/// A checkpoint of the committed step may be asked for within the next one.
+void LockstepServer::keep(const ParticipantRequest& request) {
+  if (kept_.key.phase == CouplingKey::CHECKPOINT && order(kept_.key) == order(request.key)) {
+    ++counters_.repeated;
+    return reply(kept_);
+  }
+  ParticipantReply answered = toMessage(answer(fromMessage(request)));
+  answered.key = request.key;
+  last_heard_ = ros::WallTime::now();
+  if (answered.error.empty()) kept_ = answered;
+  reply(answered);
+}
+
+void LockstepServer::compute(const ParticipantRequest& request) {
+  ParticipantReply answered = toMessage(answer(fromMessage(request)));
+  answered.key = request.key;
+  last_heard_ = ros::WallTime::now();
+  if (!answered.error.empty()) {  // who asks out of turn does not make what is due late
+    failure_ = std::move(answered);
+    return reply(failure_);
+  }
+  cache_ = std::move(answered);
+  started_ = true;
+  iterating_ = iterating_ || request.key.phase != CouplingKey::START;
+  reply(cache_);
+}
+
+void LockstepServer::reply(ParticipantReply& message) {
+  message.ignored = toMessage(counters_);
+  replies_.publish(message);
 }
 
 }  // namespace monarch_flight

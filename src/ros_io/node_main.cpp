@@ -11,6 +11,7 @@
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/ros_io/coordinator_node.h"
 #include "monarch_flight/ros_io/flight_run.h"
+#include "monarch_flight/ros_io/loopback.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/participant_node.h"
 #include "monarch_flight/run/federation.h"
@@ -39,15 +40,21 @@ int guarded(const std::string& name, const std::function<int()>& body) {
   }
 }
 
+// Takes leave of the master, however the node ends.
+struct Farewell {
+  ~Farewell() { ros::shutdown(); }
+};
+
 int nodeMain(const std::string& name, int argc, char** argv, const std::function<int()>& body) {
   return guarded(name, [&] {
     // Namespace of the package unless the launcher gives another.
     if (std::getenv("ROS_NAMESPACE") == nullptr) setenv("ROS_NAMESPACE", kNamespace, 1);
+    preferLoopback();
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     requireFreeMaster();
-    const int code = body();
-    ros::shutdown();
-    return code;
+    const Farewell farewell;
+    startOnLoopback();
+    return body();
   });
 }
 
@@ -91,6 +98,7 @@ int inProcessMain(int argc, char** argv) {
   if (processes.rank() > 0) return serveFlow(processes);
   return guarded("fly_in_process", [&] {
     const RunParameters parameters = runParameters(argc, argv);
+    if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
     requireProcesses(parameters, c);
     const std::string out = outputDirectory(parameters, c);

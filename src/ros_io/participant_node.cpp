@@ -51,12 +51,13 @@ Reply ParticipantOnStart::exchange(const Request& request) {
 ParticipantNode::ParticipantNode(Role role, const StopFlag& stop)
     : case_(readCase(role)),
       participant_(role, case_),
-      server_(ros::NodeHandle(kNamespace), {role, case_.name, case_.sha256}, participant_,
+      server_(ros::NodeHandle(kNamespace),
+              {role, case_.name, case_.sha256, Token::fromEnvironment()}, participant_,
               limitsFor(case_.watchdog_s), stop) {}
 
 int ParticipantNode::run() {
   server_.serve();
-  if (server_.counters().any()) {
+  if (server_.counters().total() > 0) {
     ROS_INFO("requests that were ignored: %s", server_.counters().describe().c_str());
   }
   return kExitComplete;

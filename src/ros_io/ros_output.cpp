@@ -23,7 +23,10 @@ void RosOutput::open(const std::vector<StampedMessage>& topics) {
     std::visit(
         [&](const auto& content) {
           using Message = std::decay_t<decltype(content)>;
-          publishers_[topic.topic] = node_.advertise<Message>(topic.topic, kQueue, topic.latched);
+          // Who comes while the run is held gets the time and the pose, too.
+          const bool latched =
+              topic.latched || topic.topic == topics::kClock || topic.topic == topics::kTf;
+          publishers_[topic.topic] = node_.advertise<Message>(topic.topic, kQueue, latched);
         },
         topic.message);
   }

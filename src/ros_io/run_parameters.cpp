@@ -20,7 +20,7 @@ using Faults = std::vector<std::string>;
 
 const char kKnown[] =
     "case, out, directory, fluid, grid, flaps, steps_per_flap, record, checkpoint_every, ranks, "
-    "watchdog, resume, checkpoints";
+    "watchdog, paused, resume, checkpoints";
 
 bool oneOf(const std::string& key, std::initializer_list<const char*> names) {
   for (const char* name : names) {
@@ -64,6 +64,9 @@ void take(const std::string& key, const std::string& value, const std::string& w
   } else if (key == "watchdog") {
     out.watchdog_s = positiveNumber(value);
     if (out.watchdog_s == 0.0) faults.push_back(shown + ": must be a number of seconds > 0");
+  } else if (key == "paused") {
+    out.paused = value == "true";
+    if (value != "true" && value != "false") faults.push_back(shown + ": must be true or false");
   } else if (key == "ranks") {
     const double ranks = positiveNumber(value);
     out.ranks = static_cast<int>(ranks);

@@ -1,4 +1,4 @@
-// The flow solver against Stokes' first problem and the momentum balance.
+// The flow solver against Taylor-Green vortices, Stokes' first problem and the momentum balance.
 // The full studies: scripts/verify.
 #include <gtest/gtest.h>
 
@@ -9,6 +9,56 @@
 
 namespace monarch_flight::verify {
 namespace {
+
+constexpr double kViscosity = 0.02;
+
+Vector3d vortices(const Vector3d& r, double t) {
+  const double decay = std::exp(-2 * kViscosity * M_PI * M_PI * t);
+  return decay * Vector3d(std::sin(M_PI * r.x()) * std::cos(M_PI * r.y()),
+                          -std::cos(M_PI * r.x()) * std::sin(M_PI * r.y()), 0);
+}
+
+/// Root of the mean square error of u in the inner half of a grid that translates and turns.
+double vortexError(int n) {
+  const Axis axis = uniformAxis(-1, 1, n);
+  NavierStokes flow(makeGrid(axis, axis, axis, n / 2, false,
+                             std::vector<std::uint8_t>(static_cast<std::size_t>(n) * n, 0)),
+                    airOf(1, kViscosity), 1, kNoCourantLimit);
+  auto motion = [](double t) {
+    const Vector3d omega(0.6, -0.4, 0.9), V(0.3, 0.2, -0.25);
+    WingMotion m;
+    m.R_IW = expSO3(omega * t);
+    m.omega_W = omega;
+    m.r_I = V * t;
+    m.v_W = m.R_IW.transpose() * V;
+    return m;
+  };
+  const int steps = 2 * n;
+  const double T = 0.5, dt = T / steps;
+  flow.start(motion(0), dt);
+  flow.setKnownFlow(vortices);
+  for (int s = 1; s <= steps; ++s) {
+    flow.evaluate(motion(s * dt));
+    flow.commit();
+  }
+  const WingMotion m = motion(T);
+  double sum = 0;
+  for (int k = n / 4; k < n - n / 4; ++k)
+    for (int j = n / 4; j < n - n / 4; ++j)
+      for (int i = n / 4; i < n - n / 4; ++i) {
+        const Vector3d r(axis.face[i], axis.centre[j], axis.centre[k]);
+        const double exact = m.R_IW.col(0).dot(vortices(m.r_I + m.R_IW * r, T));
+        const double e = flow.velocity().c[0][flow.layout().at(i, j, k)] - exact;
+        sum += e * e;
+      }
+  return std::sqrt(8 * sum / (static_cast<double>(n) * n * n));
+}
+
+TEST(ExactFlows, TaylorGreenOnAMovingGridIsOfSecondOrder) {
+  const double coarse = vortexError(12), fine = vortexError(24);
+  EXPECT_GT(std::log2(coarse / fine), 1.8) << coarse << " " << fine;
+  EXPECT_LT(fine, 0.01);
+}
 
 TEST(ExactFlows, WallShearOfStokesFirstProblem) {
   const double nu = 0.01, size = 400;

@@ -152,7 +152,7 @@ TEST(Conversions, UnusableMessagesAreNamed) {
   request.key.phase = 4;
   EXPECT_EQ("unknown phase 4", problem(request));
   request.protocol = kProtocolVersion + 1;
-  EXPECT_NE(std::string::npos, problem(request).find("protocol version 3 instead of 2"));
+  EXPECT_NE(std::string::npos, problem(request).find("protocol version 4 instead of 3"));
   ParticipantReply reply = toMessage(Reply());
   EXPECT_EQ("", problem(reply));
   reply.added_mass.resize(35);

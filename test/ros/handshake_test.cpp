@@ -30,12 +30,12 @@ TEST_F(Lockstep, AnotherProtocolVersionIsRefused) {
   Hello hello = makeHello(fluid, run.id);
   hello.protocol = 99;
   ros::Publisher raw = node.advertise<Hello>("fluid/hello", 8, true);
-  raw.publish(hello);
+  raw.publish(sealed("hello", hello));
   try {
     client->connect();
     FAIL() << "the client agreed";
   } catch (const ExchangeError& e) {
-    EXPECT_NE(std::string::npos, std::string(e.what()).find("protocol version 2 here, 99 in"));
+    EXPECT_NE(std::string::npos, std::string(e.what()).find("protocol version 3 here, 99 in"));
   }
   Hello old = makeHello(fluid, 1);
   old.role = "wing";
@@ -47,7 +47,7 @@ TEST_F(Lockstep, AnAnswerToAnotherRunIsNoHandshake) {
   run.limits.connect_s = 0.5;
   client = std::make_unique<RosParticipant>(node, fluid, run);
   ros::Publisher raw = node.advertise<Hello>("fluid/hello", 8, true);
-  raw.publish(makeHello(fluid, run.id + 1));
+  raw.publish(sealed("hello", makeHello(fluid, run.id + 1)));
   EXPECT_THROW(client->connect(), ExchangeError);
   EXPECT_EQ(1u, client->counters().foreign);
 }

@@ -104,6 +104,12 @@ class Lockstep : public testing::Test {
     EXPECT_GT(out.getNumSubscribers(), 0u);
     return out;
   }
+  // A message for a topic of the fluid with the seal of the run.
+  template <class Message>
+  Message sealed(const std::string& name, Message message) const {
+    fluid.token.seal(node.resolveName("fluid/" + name), message);
+    return message;
+  }
   // Waits until a value has been reached.
   template <class Condition>
   static bool eventually(Condition condition, double limit_s = 5.0) {
@@ -112,7 +118,7 @@ class Lockstep : public testing::Test {
     return condition();
   }
 
-  LockstepIdentity fluid{Role::kFluid, "climb", kSha};
+  LockstepIdentity fluid{Role::kFluid, "climb", kSha, Token("secret")};
   LockstepLimits server_limits = shortLimits();
   ros::NodeHandle node;
   StopFlag stop{false}, server_stop{false};

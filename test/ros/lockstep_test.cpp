@@ -17,12 +17,12 @@ TEST_F(Lockstep, EveryExchangeIsAnsweredOnce) {
     client->exchange(request(step, 4, Phase::kCommit));
   }
   EXPECT_EQ(1 + 20 * 6, solver.computed);
-  EXPECT_FALSE(client->counters().any());
+  EXPECT_EQ(0u, client->counters().total());
   client->exchange(request(20, 0, Phase::kAbort));
   client.reset();
   joinServer();
   EXPECT_EQ("ended", server_end);
-  EXPECT_FALSE(server->counters().any());
+  EXPECT_EQ(0u, server->counters().total());
 }
 
 TEST_F(Lockstep, ARepeatedRequestIsAnsweredFromTheCache) {
@@ -41,20 +41,20 @@ TEST_F(Lockstep, TheServerIgnoresLateForeignAndMalformedRequests) {
   client->exchange(request(1, 0, Phase::kIterate));
   client->exchange(request(1, 0, Phase::kCommit));
   const ros::Publisher raw = injector<ParticipantRequest>("request");
-  raw.publish(toMessage(request(1, 0, Phase::kIterate)));
+  raw.publish(sealed("request", toMessage(request(1, 0, Phase::kIterate))));
   ParticipantRequest foreign = toMessage(request(2, 0, Phase::kIterate));
   foreign.key.run = 43;
-  raw.publish(foreign);
+  raw.publish(sealed("request", foreign));
   ParticipantRequest malformed = toMessage(request(2, 0, Phase::kIterate));
   malformed.key.phase = 9;
-  raw.publish(malformed);
+  raw.publish(sealed("request", malformed));
   malformed = toMessage(request(2, 0, Phase::kIterate));
   malformed.protocol = 99;
-  raw.publish(malformed);
+  raw.publish(sealed("request", malformed));
   foreign.key.phase = CouplingKey::ABORT;
-  raw.publish(foreign);  // may not end this run either
+  raw.publish(sealed("request", foreign));  // may not end this run either
   EXPECT_TRUE(eventually([this] {
-    const LockstepCounters& c = server->counters();
+    const IgnoredMessages& c = server->counters();
     return c.late == 1 && c.foreign == 2 && c.malformed == 2;
   })) << server->counters().describe();
   EXPECT_EQ(3, solver.computed);
@@ -71,18 +71,18 @@ TEST_F(Lockstep, TheClientIgnoresLateRepeatedForeignAndMalformedReplies) {
   Reply wrong;
   wrong.loads.force_pressure.setConstant(1e9);
   wrong.key = {42, 1, 0, Phase::kIterate};
-  raw.publish(toMessage(wrong));  // repeated: this exchange has its answer
+  raw.publish(sealed("reply", toMessage(wrong)));  // repeated: this exchange has its answer
   wrong.key = {42, 0, 0, Phase::kStart};
-  raw.publish(toMessage(wrong));  // late
+  raw.publish(sealed("reply", toMessage(wrong)));  // late
   wrong.key = {43, 1, 1, Phase::kIterate};
-  raw.publish(toMessage(wrong));  // foreign, with the key of the next exchange
+  raw.publish(sealed("reply", toMessage(wrong)));  // foreign, with the key of the next exchange
   ParticipantReply malformed = toMessage(wrong);
   malformed.protocol = 99;
-  raw.publish(malformed);
+  raw.publish(sealed("reply", malformed));
   ros::WallDuration(0.2).sleep();
   const Reply reply = client->exchange(request(1, 1, Phase::kIterate));
   EXPECT_EQ(Eigen::Vector3d(1, 1, 3), reply.loads.force_pressure);
-  const LockstepCounters& c = client->counters();
+  const IgnoredMessages& c = client->counters();
   EXPECT_EQ(1u, c.foreign);
   EXPECT_EQ(1u, c.malformed);
   EXPECT_EQ(2u, c.late + c.repeated);
@@ -111,9 +111,10 @@ TEST_F(Lockstep, AnAnswerThatComesTooLateIsNotTakenForTheNext) {
   ros::WallDuration(0.6).sleep();
   const Reply reply = client->exchange(request(1, 0, Phase::kCommit));
   EXPECT_EQ(Phase::kCommit, reply.key.phase);
-  EXPECT_EQ(3, solver.computed);  // the request sent again came from the cache
-  EXPECT_EQ(1u, server->counters().repeated);
-  EXPECT_EQ(2u, client->counters().late + client->counters().repeated);
+  EXPECT_EQ(3, solver.computed);  // the requests sent again came from the cache
+  EXPECT_EQ(3u, server->counters().repeated);
+  EXPECT_EQ(4u, client->counters().late + client->counters().repeated);
+  EXPECT_EQ(3u + 4u, client->ignored().total());
 }
 
 TEST_F(Lockstep, ALostRequestIsAskedAgain) {
@@ -129,11 +130,11 @@ TEST_F(Lockstep, ALostRequestIsAskedAgain) {
         if (++heard == 1) return;
         Reply reply;
         reply.key = fromMessage(request->key);
-        replies.publish(toMessage(reply));
+        replies.publish(sealed("reply", toMessage(reply)));
       });
   ros::Subscriber greeting = hand.subscribe<Hello>(
       "coordinator_hello", 8,
-      [&](const HelloConstPtr& h) { hello.publish(makeHello(fluid, h->run)); });
+      [&](const HelloConstPtr& h) { hello.publish(sealed("hello", makeHello(fluid, h->run))); });
   ros::AsyncSpinner spinner(1, &queue);
   spinner.start();
   client = std::make_unique<RosParticipant>(node, fluid, run);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "monarch_flight/fluid/grid_settings.h"
+#include "monarch_flight/fluid/mobility.h"
 #include "monarch_flight/insect/planform.h"
 
 namespace monarch_flight {
@@ -25,6 +26,7 @@ struct Grid {
   int k_wing = 0;                     ///< z.face[k_wing] == 0: the wing's plane; k_wing cells lie below it
   bool open = false;                  ///< outer boundary: false: v = 0 (Neumann p); true: p = 0 (Dirichlet)
   std::vector<std::uint8_t> wing;     ///< nx*ny: 1 where the z-face (i, j, k_wing) belongs to the wing (staircase: centre inside)
+  Mobility mobility;                  ///< of the faces near the wing, from the mask
   long cells() const { return long(x.n()) * y.n() * z.n(); }
   bool isWing(int i, int j) const { return wing[static_cast<std::size_t>(j) * x.n() + i] != 0; }
 };

@@ -8,17 +8,18 @@ namespace monarch_flight {
 
 class Slab;
 
-/// Direct solver of the Poisson equation on a Grid, the wing's faces carrying no flux.
+/// Direct solver of the Poisson equation on a Grid with a wing.
 ///
-/// Finds p with, for every cell c:  sum over its faces f of (area_f / gap_f) (p_neighbour - p_c) = b_c ,
-/// where faces of the wing contribute nothing, outer faces contribute nothing (grid.open == false) or
-/// (area / half width) (0 - p_c) (grid.open == true). b is integrated over the cell. With
-/// grid.open == false b must sum to zero up to rounding (the residual mean is removed) and p has zero
-/// volume mean.
+/// Finds p with, for every cell c:
+///   sum over its faces f of mobility_f (area_f / gap_f) (p_neighbour - p_c) = b_c ,
+/// where faces of the wing contribute nothing (mobility 0; beside its rim more than 1), outer faces
+/// contribute nothing (grid.open == false) or (area / half width) (0 - p_c) (grid.open == true). b is
+/// integrated over the cell. With grid.open == false b must sum to zero up to rounding (the residual
+/// mean is removed) and p has zero volume mean.
 ///
-/// Method: fast diagonalisation in x and y (generalised eigenvectors), tridiagonal elimination in z from
-/// both ends to the wing plane, dense capacitance matrix on the wing's faces between elimination and
-/// back-substitution: one forward and one inverse transform a solve.
+/// Method: fast diagonalisation in x and y (generalised eigenvectors), tridiagonal elimination in z
+/// from both ends to the wing plane, dense capacitance matrix on the faces of the wing and of its rim
+/// between elimination and back-substitution: one forward and one inverse transform a solve.
 class PressureSolver {
  public:
   /// Sets BLAS to one thread for the whole process (repeatable bit for bit). Throws

@@ -1,5 +1,6 @@
 #pragma once
 #include <monarch_flight/CouplingKey.h>
+#include <monarch_flight/IgnoredCounts.h>
 #include <monarch_flight/InterfaceState.h>
 #include <monarch_flight/ParticipantReply.h>
 #include <monarch_flight/ParticipantRequest.h>
@@ -24,6 +25,7 @@ WingLoads toMessage(const Loads& loads);
 ParticipantRequest toMessage(const Request& request);
 ParticipantReply toMessage(const Reply& reply);
 SubIteration toMessage(const IterationRecord& record);
+IgnoredCounts toMessage(const IgnoredMessages& ignored);
 
 /// Precondition: problem(message) is empty (the phase is one of Phase).
 ExchangeKey fromMessage(const CouplingKey& key);
@@ -32,9 +34,10 @@ Loads fromMessage(const WingLoads& loads);
 Request fromMessage(const ParticipantRequest& request);
 Reply fromMessage(const ParticipantReply& reply);
 IterationRecord fromMessage(const SubIteration& record);
+IgnoredMessages fromMessage(const IgnoredCounts& ignored);
 
-/// Why a message cannot be used (protocol version, phase); empty when it can. Says nothing of the
-/// run.
+/// Why a message cannot be used (protocol version, phase, sizes); empty when it can. Says nothing
+/// of the run.
 std::string problem(const ParticipantRequest& request);
 std::string problem(const ParticipantReply& reply);
 

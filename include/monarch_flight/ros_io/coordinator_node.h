@@ -20,6 +20,7 @@ class CoordinatorNode {
 
  private:
   int fly();
+  void keepAlive();
   void dismiss() noexcept;
   void reportIgnored() const;
 
@@ -28,6 +29,7 @@ class CoordinatorNode {
   Case case_;
   ros::NodeHandle node_;
   LockstepRun run_;
+  ros::WallTime greeted_;
   std::array<std::unique_ptr<RosParticipant>, 3> participants_;
 };
 

@@ -20,6 +20,8 @@ class FlightRun {
   /// which. `listeners` also get the messages. Throws InputError, OutputError.
   FlightRun(const Case& c, const std::string& out, bool resume,
             std::vector<MessageOutput*> listeners);
+  /// Delivers to `sink`, too, after everything is written; it must outlive this.
+  void addSink(StepSink& sink) { last_.push_back(&sink); }
   /// Flies as `control` says; prints the end; returns an exit code (`stop`: stopped by hand).
   int fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
           RunControl& control, const StopFlag& stop);
@@ -34,6 +36,7 @@ class FlightRun {
   std::unique_ptr<BagOutput> bag_;
   std::unique_ptr<MessageSink> messages_;
   ProgressSink progress_;
+  std::vector<StepSink*> last_;
 };
 
 }  // namespace monarch_flight

@@ -9,6 +9,7 @@
 
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/stop_flag.h"
+#include "monarch_flight/ros_io/token.h"
 
 namespace monarch_flight {
 
@@ -17,6 +18,7 @@ struct LockstepIdentity {
   Role role = Role::kFluid;  ///< of the solver at the participant's end
   std::string case_name;     ///< for messages
   std::string case_sha256;   ///< of the resolved case, hex
+  Token token;               ///< of the run
 };
 
 /// Wall-clock limits [s]; every wait of the protocol ends by one of them.
@@ -35,18 +37,9 @@ struct LockstepLimits {
 /// more.
 LockstepLimits limitsFor(double watchdog_s);
 
-/// What one end has seen and ignored.
-struct LockstepCounters {
-  std::uint64_t late = 0;       ///< of this run, but of an exchange that is over
-  std::uint64_t repeated = 0;   ///< the same message again
-  std::uint64_t foreign = 0;    ///< of another run
-  std::uint64_t malformed = 0;  ///< wrong protocol version or unknown phase
-  std::string describe() const;
-  bool any() const { return late + repeated + foreign + malformed > 0; }
-};
-
-/// Depth of every queue of the protocol; nothing is lost while at most this many messages wait.
-constexpr std::uint32_t kLockstepQueue = 8;
+/// Depth of the queues of the protocol: few messages are ever sent, many may arrive from strangers.
+/// Nothing is lost while at most this many wait.
+constexpr std::uint32_t kOutgoing = 8, kIncoming = 1000;
 
 /// "12.5 s", for messages.
 std::string inSeconds(double s);
@@ -57,13 +50,14 @@ Hello makeHello(const LockstepIdentity& identity, std::uint64_t run,
 /// Why `other` does not fit (protocol, role, case), naming both values; empty when it fits.
 std::string disagreement(const LockstepIdentity& own, const Hello& other);
 
-/// A publisher that knows by name who listens: a killed listener is noticed at once, whoever else
-/// (a recorder, rostopic) listens too. Callbacks run on `queue`.
+/// A publisher that seals what it sends and knows by name who listens: a killed listener is noticed
+/// at once, whoever else (a recorder, rostopic) listens too. Callbacks run on `queue`.
 template <class Message>
 class WatchedPublisher {
  public:
   WatchedPublisher(ros::NodeHandle& node, const std::string& topic, bool latch,
-                   ros::CallbackQueue& queue) {
+                   ros::CallbackQueue& queue, const Token& token)
+      : topic_(node.resolveName(topic)), token_(token) {
     const auto joined = [this](const ros::SingleSubscriberPublisher& s) {
       listeners_.insert(s.getSubscriberName());
     };
@@ -71,29 +65,41 @@ class WatchedPublisher {
       const auto found = listeners_.find(s.getSubscriberName());
       if (found != listeners_.end()) listeners_.erase(found);
     };
-    auto options = ros::AdvertiseOptions::create<Message>(topic, kLockstepQueue, joined, left,
+    auto options = ros::AdvertiseOptions::create<Message>(topic, kOutgoing, joined, left,
                                                           ros::VoidConstPtr(), &queue);
     options.latch = latch;
     publisher_ = node.advertise(options);
   }
-  void publish(const Message& message) const { publisher_.publish(message); }
+  void publish(Message& message) const {
+    token_.seal(topic_, message);
+    publisher_.publish(message);
+  }
   bool heardBy(const std::string& node) const { return listeners_.count(node) > 0; }
 
  private:
+  std::string topic_;
+  Token token_;
   std::multiset<std::string> listeners_;
   ros::Publisher publisher_;
 };
 
-/// Subscribes on `queue` without Nagle's delay.
+/// Subscribes on `queue` without Nagle's delay. The callback hears what carries the token's seal;
+/// the rest is counted in `forged`, which must outlive the subscriber.
 template <class Message, class Object>
 ros::Subscriber subscribeOn(ros::CallbackQueue& queue, ros::NodeHandle& node,
-                            const std::string& topic,
+                            const std::string& topic, const Token& token, std::uint64_t& forged,
                             void (Object::*callback)(const boost::shared_ptr<Message const>&),
                             Object* object) {
   ros::SubscribeOptions options;
-  options.template init<Message>(
-      topic, kLockstepQueue,
-      [object, callback](const boost::shared_ptr<Message const>& m) { (object->*callback)(m); });
+  options.template init<Message>(topic, kIncoming,
+                                 [full = node.resolveName(topic), token, &forged, object,
+                                  callback](const boost::shared_ptr<Message const>& m) {
+                                   if (token.sealed(full, *m)) {
+                                     (object->*callback)(m);
+                                   } else {
+                                     ++forged;
+                                   }
+                                 });
   options.callback_queue = &queue;
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   return node.subscribe(options);

@@ -16,7 +16,7 @@ struct LockstepRun {
   ros::CallbackQueue queue;  ///< of all connections: whoever waits also sees the others get lost
   std::uint64_t id = 0;
   LockstepLimits limits;
-  const StopFlag* stop = nullptr;                       ///< ends every wait when it becomes true
+  const StopFlag* stop = nullptr;                   ///< ends every wait when it becomes true
   std::vector<const RosParticipant*> participants;  ///< registered by their constructors
 };
 
@@ -32,27 +32,36 @@ class RosParticipant : public Participant {
   /// Handshake; returns when both directions are connected and the participant has agreed. Throws
   /// ExchangeError naming the node and the reason: refusal, disagreement or no answer in connect_s.
   void connect();
-  /// Precondition: connect() returned. Asks again once, after half the limit. Throws ExchangeError
-  /// naming participant, step, sub-iteration and phase: no reply in time, a node of the run lost,
-  /// interrupted.
+  /// Precondition: connect() returned. Asks again after an eighth, a quarter and half of the limit.
+  /// Throws ExchangeError naming participant, step, sub-iteration and phase: no reply in time, a
+  /// node of the run lost, interrupted.
   Reply exchange(const Request& request) override;
   /// False before the handshake, and again once the node of this participant has gone.
   bool connected() const;
   /// "the fluid node (/monarch_flight/fluid)"
   std::string name() const;
 
-  const LockstepCounters& counters() const { return counters_; }
+  /// A sign of life while nothing is asked (a paused run); the solver's limit of silence begins
+  /// anew.
+  void greet();
+  /// Throws ExchangeError when this node or another one of the run is lost; `where` ends the text.
+  void requireEveryone(const std::string& where) const;
+
+  /// What this end has ignored.
+  const IgnoredMessages& counters() const { return counters_; }
+  IgnoredMessages ignored() const override;
 
  private:
   void onHello(const HelloConstPtr& hello);
   void onReply(const ParticipantReplyConstPtr& reply);
   void requireAlive(const ExchangeKey& key) const;
-  void await(const ParticipantRequest& message, const ExchangeKey& key);
+  void await(ParticipantRequest& message, const ExchangeKey& key);
   double limitOf(Phase phase) const;
   bool ready() const;
 
   LockstepIdentity identity_;
   LockstepRun& run_;
+  IgnoredMessages counters_, counters_there_;  // of this end, and of the other by its last reply
   ros::NodeHandle node_;
   WatchedPublisher<Hello> hello_out_;
   WatchedPublisher<ParticipantRequest> requests_;
@@ -60,7 +69,6 @@ class RosParticipant : public Participant {
   HelloConstPtr answer_;            // of this run
   CouplingKey pending_;             // what is, or was last, waited for
   ParticipantReplyConstPtr reply_;  // to pending_
-  LockstepCounters counters_;
 };
 
 }  // namespace monarch_flight

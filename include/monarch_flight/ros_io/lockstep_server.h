@@ -9,7 +9,8 @@ namespace monarch_flight {
 /// The participant's end: answers the coordinator's requests with an in-process Participant.
 ///  - The coordinator's hello comes first; its run number is the only one answered afterwards.
 ///  - The request answered last is answered again from the cache, without computing.
-///  - Older requests (late), other runs (foreign) and malformed messages are counted and ignored.
+///  - Older requests (late), other runs (foreign), malformed messages and messages without the seal
+///    of the run's token (forged) are counted and ignored.
 class LockstepServer {
  public:
   /// `participant` and `stop` must outlive this. `stop` ends every wait, that for requests after
@@ -22,7 +23,7 @@ class LockstepServer {
   /// silence_s, interrupted.
   void serve();
 
-  const LockstepCounters& counters() const { return counters_; }
+  const IgnoredMessages& counters() const { return counters_; }
 
  private:
   void onHello(const HelloConstPtr& hello);
@@ -32,12 +33,16 @@ class LockstepServer {
   bool graceIsOver();
   [[noreturn]] void refuse();
   Reply answer(const Request& request);
+  void compute(const ParticipantRequest& request);
+  void keep(const ParticipantRequest& request);
+  void reply(ParticipantReply& message);
   bool coordinatorListens() const;
 
   LockstepIdentity identity_;
   Participant& participant_;
   LockstepLimits limits_;
   const StopFlag& stop_;
+  IgnoredMessages counters_;
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   WatchedPublisher<Hello> hello_out_;
@@ -49,8 +54,9 @@ class LockstepServer {
   bool iterating_ = false;     // START of all participants is over
   bool ended_ = false;         // the coordinator has ended the run
   ros::WallTime last_heard_, stopped_;
-  ParticipantReply cache_;  // answer to the last request, when started_
-  LockstepCounters counters_;
+  ParticipantReply cache_;    // the last good answer, when started_
+  ParticipantReply failure_;  // the last failure; error is empty while there is none
+  ParticipantReply kept_;     // the last good answer to CHECKPOINT, which may come within a step
 };
 
 }  // namespace monarch_flight

@@ -19,6 +19,7 @@ struct RunParameters {
   std::string directory;       ///< where relative paths start; empty: the working directory
   CaseOverrides overrides;     ///< fluid, grid, flaps, steps_per_flap, record, checkpoint_every
   int ranks = 1;               ///< `ranks`: processes of the flow solver
+  bool paused = false;         ///< `paused`: hold the run at its start (nodes only)
   double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
 };
 

@@ -1,0 +1,175 @@
+#include "monarch_flight/ros_io/flight_control.h"
+
+#include <limits>
+
+namespace monarch_flight {
+namespace {
+
+// A step may run while reset or pause are asked for; further requests wait.
+constexpr std::uint32_t kThreads = 4;
+constexpr std::chrono::milliseconds kFeedback{100};  // between two of them
+constexpr char kFlies[] = "; pause it first";
+
+using Status = actionlib_msgs::GoalStatus;
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+bool answer(const RunPlace& place, bool good, std_srvs::Trigger::Response& response,
+            const char* advice = "") {
+  response.success = good && !place.ended;
+  response.message = place.describe() + (place.ended ? "" : advice);
+  return true;
+}
+
+FlyResult resultOf(const RunPlace& place, std::uint32_t steps) {
+  FlyResult result;
+  result.step = place.step;
+  result.complete = place.ended && place.failure.empty() && place.step == steps;
+  result.message = place.describe();
+  return result;
+}
+
+}  // namespace
+
+FlightControl::FlightControl(const ros::NodeHandle& node, const TimeGrid& time, bool paused,
+                             std::function<void()> keep_alive, const StopFlag& stop)
+    : time_(time),
+      keep_alive_(std::move(keep_alive)),
+      stop_(stop),
+      hold_(paused),
+      node_(node),
+      spinner_(kThreads, &queue_) {
+  node_.setCallbackQueue(&queue_);
+  action_ = std::make_unique<Server>(
+      node_, "fly", [this](Goal goal) { onGoal(goal); }, [this](Goal goal) { onCancel(goal); },
+      false);
+  action_->start();
+  services_ = {node_.advertiseService("pause", &FlightControl::onPause, this),
+               node_.advertiseService("resume", &FlightControl::onResume, this),
+               node_.advertiseService("step", &FlightControl::onSteps, this),
+               node_.advertiseService("sub_iterate", &FlightControl::onSubIterate, this),
+               node_.advertiseService("reset", &FlightControl::onResetAsked, this)};
+  spinner_.start();
+}
+
+FlightControl::~FlightControl() {
+  hold_.end("the coordinator has left");  // nobody waits any longer
+  spinner_.stop();
+}
+
+RunControl::Order FlightControl::next(std::uint32_t step, std::uint32_t iteration) {
+  return hold_.next(step, iteration, stop_, [this](const RunPlace& place) {
+    endGoal(place);
+    keep_alive_();
+  });
+}
+
+bool FlightControl::onPause(Trigger::Request&, Trigger::Response& response) {
+  const RunPlace place = hold_.pause();
+  return answer(place, place.held, response);
+}
+
+bool FlightControl::onResume(Trigger::Request&, Trigger::Response& response) {
+  const RunPlace place = hold_.resume();
+  return answer(place, !place.held, response);
+}
+
+bool FlightControl::onSubIterate(Trigger::Request&, Trigger::Response& response) {
+  const RunPlace place = hold_.subIterate();
+  return answer(place, place.held, response, place.held ? "" : kFlies);
+}
+
+bool FlightControl::onResetAsked(Trigger::Request&, Trigger::Response& response) {
+  return answer(hold_.reset(), true, response);
+}
+
+bool FlightControl::onSteps(FlySteps::Request& request, FlySteps::Response& response) {
+  if (request.steps == 0) {
+    response.message = "steps = 0: must be at least 1";
+    return true;
+  }
+  const std::uint32_t before = hold_.place().step;
+  const RunPlace place = hold_.steps(request.steps);
+  response.step = place.step;
+  response.success = place.step == before + request.steps && (place.held || place.ended);
+  response.message = place.describe() + (place.held || place.ended ? "" : kFlies);
+  return true;
+}
+
+void FlightControl::onGoal(Goal goal) {
+  const std::uint32_t asked = goal.getGoal()->until_step;
+  const RunPlace place = hold_.place();
+  std::string refusal;
+  if (place.ended) refusal = place.describe();
+  if (asked != 0 && (asked <= place.step || asked > time_.steps)) {
+    refusal = "until_step = " + std::to_string(asked) + ": must be 0, or from " +
+              std::to_string(place.step + 1) + " to " + std::to_string(time_.steps);
+  }
+  const std::lock_guard<std::mutex> lock(goal_mutex_);
+  if (goal_) refusal = "another goal is being flown: cancel it first";
+  if (!refusal.empty()) {
+    FlyResult result = resultOf(place, time_.steps);
+    result.message = refusal;
+    goal.setRejected(result, refusal);
+    return;
+  }
+  goal.setAccepted();
+  hold_.flyUntil(asked == 0 ? std::numeric_limits<std::uint32_t>::max() : asked);
+  goal_ = Flown{
+      goal, asked == 0 ? time_.steps : asked, place.step, std::chrono::steady_clock::now(), {}};
+}
+
+void FlightControl::onCancel(Goal) { hold_.pauseSoon(); }
+
+std::optional<FlightControl::Flown> FlightControl::takeGoal() {
+  const std::lock_guard<std::mutex> lock(goal_mutex_);
+  std::optional<Flown> taken;
+  taken.swap(goal_);
+  return taken;
+}
+
+/// The run is held: the goal has been reached, was cancelled, or somebody else has paused.
+void FlightControl::endGoal(const RunPlace& place) {
+  std::optional<Flown> flown = takeGoal();
+  if (!flown) return;
+  const FlyResult result = resultOf(place, time_.steps);
+  if (place.step == flown->until) {
+    flown->goal.setSucceeded(result, result.message);
+  } else if (flown->goal.getGoalStatus().status == Status::PREEMPTING) {
+    flown->goal.setCanceled(result, result.message);
+  } else {
+    flown->goal.setAborted(result, result.message);
+  }
+}
+
+void FlightControl::onStep(const CommittedStep& step) {
+  const std::lock_guard<std::mutex> lock(goal_mutex_);
+  if (!goal_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - goal_->told < kFeedback) return;
+  goal_->told = now;
+  if (step.step < goal_->first) goal_->first = step.step;  // after a reset
+  FlyFeedback feedback;
+  feedback.flap = time_.period > 0.0 ? step.step * time_.dt / time_.period : 0.0;
+  feedback.step = step.step;
+  feedback.sub_iterations = static_cast<std::uint32_t>(step.iterations.size());
+  const double done = std::max(step.step - goal_->first, 1u);
+  feedback.time_left_s = secondsSince(goal_->begin) / done * (goal_->until - step.step);
+  goal_->goal.publishFeedback(feedback);
+}
+
+void FlightControl::onEnd(const std::string& failure) {
+  hold_.end(failure);
+  std::optional<Flown> flown = takeGoal();
+  if (!flown) return;
+  const FlyResult result = resultOf(hold_.place(), time_.steps);
+  if (failure.empty()) {
+    flown->goal.setSucceeded(result, result.message);
+  } else {
+    flown->goal.setAborted(result, result.message);
+  }
+}
+
+}  // namespace monarch_flight
