@@ -28,6 +28,7 @@ void requestStop(int) { stop_requested = true; }
 int guarded(const std::string& name, const std::function<int()>& body) {
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is met like a full disk: with a message
   const auto tell = [&name](const char* what) { std::cerr << name << ": " << what << std::endl; };
   try {
     return body();

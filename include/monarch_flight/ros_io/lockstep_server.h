@@ -53,7 +53,7 @@ class LockstepServer {
   bool started_ = false;       // START has been answered
   bool iterating_ = false;     // START of all participants is over
   bool ended_ = false;         // the coordinator has ended the run
-  ros::WallTime last_heard_, stopped_;
+  ros::SteadyTime last_heard_, stopped_;
   ParticipantReply cache_;    // the last good answer, when started_
   ParticipantReply failure_;  // the last failure; error is empty while there is none
   ParticipantReply kept_;     // the last good answer to CHECKPOINT, which may come within a step
