@@ -13,7 +13,7 @@ find_package(catkin REQUIRED COMPONENTS message_generation ${ROS_PACKAGES})
 
 add_message_files(DIRECTORY msg FILES CouplingKey.msg FlightState.msg Hello.msg IgnoredCounts.msg InterfaceState.msg
   ParticipantReply.msg ParticipantRequest.msg PressureFacet.msg StepIterations.msg SubIteration.msg
-  VortexSample.msg WingLoads.msg)
+  VortexSample.msg WholeFlow.msg WingLoads.msg)
 add_service_files(DIRECTORY srv FILES FlySteps.srv)
 add_action_files(DIRECTORY action FILES Fly.action)
 generate_messages(DEPENDENCIES actionlib_msgs std_msgs)
@@ -61,6 +61,8 @@ install_libraries(${CORE_LAYERS})
 set_target_properties(monarch_ros_io PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS monarch_ros_io LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(TARGETS ${NODE_TARGETS} trim RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(PROGRAMS examples/drag_fluid.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(FILES examples/solver_node.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/monarch_flight/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
   FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY config launch rviz urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -22,3 +22,13 @@ foreach(ranks 1 2 3 4)
   set_tests_properties(fluid_parallel_${ranks} PROPERTIES TIMEOUT 300
     ENVIRONMENT "OPENBLAS_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_mpi_yield_when_idle=1")
 endforeach()
+
+# The files of the flow, where they can be written.
+if(VTK_FOUND)
+  add_executable(fields_output_test test/fields/fields_output_test.cpp)
+  target_link_libraries(fields_output_test PRIVATE monarch_fields GTest::gtest GTest::gtest_main
+    VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
+  target_compile_definitions(fields_output_test PRIVATE CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config")
+  add_test(NAME fields_output_test COMMAND fields_output_test)
+  set_tests_properties(fields_output_test PROPERTIES TIMEOUT 120 ENVIRONMENT "OPENBLAS_NUM_THREADS=1")
+endif()

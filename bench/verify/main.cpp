@@ -24,6 +24,7 @@ constexpr Subject kSubjects[] = {
     {"rim", false, rim},
     {"stability", false, stability},
     {"monarch_flap", false, monarchFlap},
+    {"outer", false, outerBoundary},
 };
 
 std::string names() {

@@ -24,5 +24,6 @@ void momentumBalance(Report&);
 void rim(Report&);
 void stability(Report&);
 void monarchFlap(Report&);
+void outerBoundary(Report&);
 
 }  // namespace monarch_flight::verify

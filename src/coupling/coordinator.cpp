@@ -17,6 +17,15 @@ using Clock = std::chrono::steady_clock;
 constexpr double kDivergence = 1e3;  // growth of the residual at which an attempt is given up
 constexpr double kCautious = 0.25;   // relaxation of the second attempt over that of the first
 
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// What the coordinator itself took of a step that began at `begin`.
+double ownSeconds(Clock::time_point begin, const CommittedStep& step) {
+  return secondsSince(begin) - step.wall_s[0] - step.wall_s[1] - step.wall_s[2] - step.exchange_s;
+}
+
 bool due(std::uint32_t step, int every) {
   return every > 0 && step % static_cast<std::uint32_t>(every) == 0;
 }
@@ -61,7 +70,7 @@ CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, RunControl&
     step = start();
     while (step < model_.steps) {
       try {
-        const CommittedStep committed = advance(step + 1, control);
+        CommittedStep committed = advance(step + 1, control);
         step = committed.step;
         deliver(committed);
         if (keeper_ && keeper_->due(step, step == model_.steps)) keep(step);
@@ -118,10 +127,17 @@ std::uint32_t Coordinator::start() {
   }
   out.interface = request.interface;
   finish(Loads(), out);
-  out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
-                   out.wall_s[1] - out.wall_s[2];
+  out.coupling_s = ownSeconds(begin, out);
+  outputs_s_ = 0.0;
   deliver(out);
   return 0;
+}
+
+void Coordinator::deliver(CommittedStep& step) {
+  const auto begin = Clock::now();
+  step.outputs_s = outputs_s_;
+  for (StepSink* sink : sinks_) sink->onStep(step);
+  outputs_s_ += secondsSince(begin);
 }
 
 void Coordinator::startAgain() {
@@ -129,10 +145,6 @@ void Coordinator::startAgain() {
   for (StepSink* sink : sinks_) sink->onReset();
   if (keeper_) keeper_->reset();
   start();
-}
-
-void Coordinator::deliver(const CommittedStep& step) {
-  for (StepSink* sink : sinks_) sink->onStep(step);
 }
 
 /// Asks who leads the run before the next sub-iteration of `out`.
@@ -172,8 +184,7 @@ CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
     throw StepFailure(e.what());
   }
   commit(last, out);
-  out.exchange_s = std::chrono::duration<double>(Clock::now() - begin).count() - out.wall_s[0] -
-                   out.wall_s[1] - out.wall_s[2];
+  out.coupling_s = ownSeconds(begin, out);
   return out;
 }
 
@@ -292,10 +303,12 @@ void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
   const bool vortices = due(out.step, model_.vortices_every);
   for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
     request.want_fields = role == Role::kFluid && (surface || vortices);
+    request.want_flow = role == Role::kFluid && due(out.step, model_.fields_every);
     Reply reply = ask(role, request, out);
     if (role != Role::kFluid) continue;
     out.fluid = reply.report;
     if (surface) out.surface = std::move(reply.surface);
+    out.flow = std::move(reply.flow);
     if (vortices) out.vortices = std::move(reply.vortices);
   }
   out.interface = request.interface;
@@ -347,8 +360,10 @@ ExchangeKey Coordinator::keyOf(std::uint32_t step, std::uint32_t iteration, Phas
 
 Reply Coordinator::ask(Role role, const Request& request, CommittedStep& out) {
   const std::size_t index = static_cast<std::size_t>(role);
+  const auto begin = Clock::now();
   Reply reply = participants_[index]->exchange(request);
   out.wall_s[index] += reply.wall_s;
+  out.exchange_s += secondsSince(begin) - reply.wall_s;
   if (!reply.error.empty()) throw NumericalError(reply.error);
   const std::string place =
       std::string(roleName(role)) + ", step " + std::to_string(request.key.step) + ", iteration " +

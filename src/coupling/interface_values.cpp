@@ -54,7 +54,8 @@ bool same(const Coordinate& a, const Coordinate& b) {
 
 bool same(const Request& a, const Request& b) {
   return a.key == b.key && a.t == b.t && same(a.interface, b.interface) && same(a.loads, b.loads) &&
-         a.want_operator == b.want_operator && a.want_fields == b.want_fields;
+         a.want_operator == b.want_operator && a.want_fields == b.want_fields &&
+         a.want_flow == b.want_flow;
 }
 
 bool finite(const Request& request) {

@@ -35,6 +35,7 @@ void FluidParticipant::onIterate(const Request& request, Reply& reply) {
 void FluidParticipant::onCommit(const Request& request, Reply& reply) {
   fluid_->commit();
   reply.report = fluid_->report();
+  if (request.want_flow) reply.flow = fluid_->flowField();
   if (!request.want_fields) return;
   reply.surface = fluid_->surfacePressure();
   reply.vortices = fluid_->vortices(model().q_threshold, model().vortex_limit);

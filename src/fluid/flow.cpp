@@ -78,6 +78,7 @@ Matrix6d NavierStokes::computeAddedMass() {
 void NavierStokes::start(const WingMotion& motion, double dt) {
   dt_ = dt;
   steps_ = 0;
+  report_.kernel_s.fill(0.0);
   prepared_ = evaluated_ = false;
   for (Velocity* v : {&vn_, &v_star_}) {
     for (Array& a : v->c) std::fill(a.begin(), a.end(), 0.0);
@@ -209,6 +210,7 @@ double NavierStokes::courant() const {
 void NavierStokes::prepareStep() {
   const GridVelocity& n = level_n_.grid;
   const GridVelocity& m = level_m_.grid;
+  LapTimer timer(report_.kernel_s);
   if (!prepared_) {
     const Eigen::Vector3d omega_mid = 1.5 * n.omega - 0.5 * m.omega;
     predicted_frame_ = level_n_.frame * expSO3(dt_ * omega_mid);
@@ -224,6 +226,7 @@ void NavierStokes::prepareStep() {
   step_ = {second ? 2 * dt_ / 3 : dt_, dt_, air_.mu / air_.rho, air_.rho, second};
   convectingField({2 * n.V - m.V, 2 * n.omega - m.omega});
   report_.courant = courant();
+  timer.lap(Kernel::kTurning);
   if (report_.courant > courant_limit_) {
     step_ = {};
     std::ostringstream s;
@@ -232,11 +235,13 @@ void NavierStokes::prepareStep() {
     throw NumericalError(s.str());
   }
   momentum_.prepare(step_, vn_, vm_, convecting_, p_, level_n_.wall);
+  timer.lap(Kernel::kMomentumXY);
 }
 
 /// One evaluation: (1) momentum with the wall's new velocity, (2) pressure, (3) loads.
 Loads NavierStokes::evaluate(const WingMotion& next) {
   if (step_.dt == 0) prepareStep();
+  LapTimer timer(report_.kernel_s);
   next_.frame = next.R_IW;
   next_.grid = gridVelocity(next, air_.wind_I);
   next_.wall = wallVelocity(next_.grid);
@@ -247,9 +252,12 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   fillWing(grid_, layout_, next_.wall, v_star_);
 
   fillHalo(layout_, slab_, v_star_.c[2]);
+  timer.lap(Kernel::kMomentumZ);
 
   netOutflow(grid_, layout_, v_star_, air_.rho / step_.a, phi());
-  pressure_.solve(phi());
+  timer.lap(Kernel::kOutflow);
+  pressure_.solve(phi(), report_.kernel_s);
+  timer.restart();
 
   acceleration_ =
       step_.second_order
@@ -262,6 +270,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
                 loads);
   rimLoads(grid_, layout_, momentum_, convecting_, v_star_, air_.rho / step_.a, row_.data(), loads);
   sumLoads(slab_, loads);
+  timer.lap(Kernel::kLoads);
   if (!loads.finite()) throw NumericalError("Navier-Stokes: the loads are not finite");
   evaluated_ = true;
   return loads;
@@ -269,6 +278,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
 
 void NavierStokes::commit() {
   if (!evaluated_) throw std::logic_error("NavierStokes::commit without evaluate");
+  LapTimer timer(report_.kernel_s);
   fillPhiHalo();
   subtractGradient(grid_, layout_, phi(), step_.a / air_.rho, v_star_);
   fillHalo(layout_, slab_, v_star_);
@@ -288,6 +298,7 @@ void NavierStokes::commit() {
   ++steps_;
   prepared_ = evaluated_ = false;
   step_ = {};
+  timer.lap(Kernel::kProjection);
 }
 
 std::unique_ptr<FluidModel> makeNavierStokes(const Planform& planform, const Air& air,

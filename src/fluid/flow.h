@@ -47,6 +47,7 @@ class NavierStokes : public FluidModel {
   long cells() const override { return grid_.cells(); }
   SurfacePressure surfacePressure() const override;
   std::vector<VortexPoint> vortices(double q_threshold, int limit) const override;
+  std::shared_ptr<const FlowField> flowField() const override;
 
   const Grid& grid() const { return grid_; }
   const Layout& layout() const { return layout_; }
@@ -66,6 +67,10 @@ class NavierStokes : public FluidModel {
   void potentialStart();
   void fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isometry3d& place, double t,
                     Velocity& v) const;
+
+  Eigen::Vector3d velocityAt(int i, int j, int k) const;  ///< committed, at the cell's centre
+  Eigen::Matrix3d gradientAt(int i, int j, int k) const;
+  std::vector<FlowField::WingFace> wingFaces() const;
 
   double* phi() { return phi_.data() + phi_start_; }  ///< of this process's first cell
   void fillPhiHalo();

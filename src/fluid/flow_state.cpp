@@ -1,12 +1,10 @@
-// Exact state of the flow as bytes, and the fields for pictures.
+// Exact state of the flow as bytes.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 
 #include "fluid/flow.h"
-#include "fluid/wing_loads.h"
 
 namespace monarch_flight {
 namespace {
@@ -55,17 +53,6 @@ void exchangeLevel(Stream& s, L& level) {
   for (int i = 0; i < 3; ++i) s(level.grid.V[i]);
   for (int i = 0; i < 3; ++i) s(level.grid.omega[i]);
   s(level.wall);
-}
-
-/// The items of all processes on process 0.
-template <class T>
-std::vector<T> gathered(const Slab& slab, const std::vector<T>& mine) {
-  const char* begin = reinterpret_cast<const char*>(mine.data());
-  const std::vector<char> all =
-      slab.gather(std::vector<char>(begin, begin + mine.size() * sizeof(T)));
-  std::vector<T> items(all.size() / sizeof(T));
-  if (!all.empty()) std::memcpy(static_cast<void*>(items.data()), all.data(), all.size());
-  return items;
 }
 
 }  // namespace
@@ -125,57 +112,6 @@ void NavierStokes::restore(const std::vector<char>& bytes) {
   for (Array& a : v_star_.c) std::fill(a.begin(), a.end(), 0.0);
   evaluated_ = false;
   step_ = {};
-}
-
-SurfacePressure NavierStokes::surfacePressure() const {
-  std::vector<SurfacePressure::Facet> facets;
-  const WingPressure p(grid_, layout_, p_.data(), nullptr);
-  for (int j = 0; slab_.owns(grid_.k_wing) && j < layout_.ny; ++j) {
-    for (int i = 0; i < layout_.nx; ++i) {
-      if (!grid_.isWing(i, j)) continue;
-      const double x = grid_.x.centre[i], y = grid_.y.centre[j], a_n = acceleration_.at(2, x, y);
-      facets.push_back({float(x), float(y), float(grid_.x.width[i]), float(grid_.y.width[j]),
-                        float(p.below(i, j, air_.rho, a_n)), float(p.above(i, j, air_.rho, a_n))});
-    }
-  }
-  return {gathered(slab_, facets)};
-}
-
-std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) const {
-  std::vector<VortexPoint> points;
-  const Axis* axes[3] = {&grid_.x, &grid_.y, &grid_.z};
-  for (int k = std::max(1, layout_.k0); k < std::min(layout_.k1, layout_.nz - 1); ++k) {
-    for (int j = 1; j < layout_.ny - 1; ++j) {
-      for (int i = 1; i < layout_.nx - 1; ++i) {
-        const int at[3] = {i, j, k};
-        const std::ptrdiff_t q = layout_.at(i, j, k);
-        Eigen::Matrix3d g;  // g(c, d) = d v_c / d x_d at the cell's centre
-        for (int c = 0; c < 3; ++c) {
-          const double* v = vn_.c[c].data() + q;
-          const std::ptrdiff_t sc = layout_.stride(c);
-          for (int d = 0; d < 3; ++d) {
-            const std::ptrdiff_t s = layout_.stride(d);
-            const Axis& a = *axes[d];
-            g(c, d) = c == d ? (v[s] - v[0]) / a.width[at[d]]
-                             : 0.5 * (v[s] + v[s + sc] - v[-s] - v[-s + sc]) /
-                                   (a.gap[at[d]] + a.gap[at[d] + 1]);
-          }
-        }
-        const double Q = -0.5 * (g * g).trace();
-        if (Q > q_threshold) {
-          points.push_back({float(grid_.x.centre[i]), float(grid_.y.centre[j]),
-                            float(grid_.z.centre[k]), float(Q), float(g(0, 2) - g(2, 0))});
-        }
-      }
-    }
-  }
-  points = gathered(slab_, points);
-  if (static_cast<int>(points.size()) > limit) {
-    std::nth_element(points.begin(), points.begin() + limit, points.end(),
-                     [](const VortexPoint& a, const VortexPoint& b) { return a.q > b.q; });
-    points.resize(limit);
-  }
-  return points;
 }
 
 }  // namespace monarch_flight

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
 #include "fluid/blas.h"
 #include "fluid/pressure_capacitance.h"
@@ -12,6 +13,20 @@
 
 namespace monarch_flight {
 
+namespace {
+
+/// Faces of the wing. Throws std::invalid_argument, on every process alike, when they close the whole
+/// plane of a closed box.
+int facesOf(const Grid& g) {
+  const auto count = std::count(g.wing.begin(), g.wing.end(), 1);
+  if (!g.open && static_cast<std::size_t>(count) == g.wing.size()) {
+    throw std::invalid_argument("PressureSolver: the wing closes the whole plane of a closed box");
+  }
+  return static_cast<int>(count);
+}
+
+}  // namespace
+
 struct PressureSolver::Impl {
   Impl(const Grid& g, const Slab& s)
       : grid(g),
@@ -20,7 +35,10 @@ struct PressureSolver::Impl {
         y(g.y, g.open),
         transform(x, y, slab.planes()),
         columns(g, slab, x, y, transform.blocks()),
-        wing(g, x, y, columns.wingResponse()),
+        faces(facesOf(g)),
+        wing(columns.touchesWing()
+                 ? std::make_unique<WingCapacitance>(g, x, y, columns.wingResponse())
+                 : nullptr),
         spectrum(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n() * slab.planes())),
         down(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())),
         up(down) {}
@@ -30,7 +48,8 @@ struct PressureSolver::Impl {
   const AxisModes x, y;
   const PlaneTransform transform;
   const PressureColumns columns;
-  const WingCapacitance wing;
+  const int faces;
+  const std::unique_ptr<const WingCapacitance> wing;  ///< only where its plane is touched
   Eigen::VectorXd spectrum, down, up;  // scratch
   double setup_seconds = 0.0;
 };
@@ -50,22 +69,33 @@ PressureSolver::~PressureSolver() = default;
 // 1. modes of x and y; 2. z from both ends to the wing's plane; 3. the wing's answer to the
 // pressures there (by each process that touches the plane, alike); 4. z back outwards; 5. modes to
 // cells.
-void PressureSolver::solve(double* b_to_p) const {
+void PressureSolver::solve(double* b_to_p, KernelTimes& times) const {
+  LapTimer timer(times);
   double* spectrum = impl_->spectrum.data();
   impl_->transform.forwardNegative(b_to_p, spectrum);
+  timer.lap(Kernel::kTransforms);
   if (!impl_->grid.open) impl_->columns.removeMean(spectrum);
   impl_->columns.eliminate(spectrum);
   impl_->columns.meet(spectrum);
-  if (!impl_->wing.empty() && impl_->columns.touchesWing()) {
+  timer.lap(Kernel::kColumns);
+  if (impl_->wing && !impl_->wing->empty()) {
     double* down = impl_->down.data();
     double* up = impl_->up.data();
     impl_->columns.wingPressures(down, up);
-    impl_->wing.answer(down, up);
+    impl_->wing->answer(down, up);
     impl_->columns.addSources(down, up);
   }
+  timer.lap(Kernel::kCapacitance);
   impl_->columns.substitute(spectrum);
   if (!impl_->grid.open) impl_->columns.centre(spectrum);
+  timer.lap(Kernel::kColumns);
   impl_->transform.inverse(spectrum, b_to_p);
+  timer.lap(Kernel::kTransforms);
+}
+
+void PressureSolver::solve(double* b_to_p) const {
+  KernelTimes nobody_asks{};
+  solve(b_to_p, nobody_asks);
 }
 
 void PressureSolver::apply(const double* p, double* y) const {
@@ -101,7 +131,7 @@ void PressureSolver::apply(const double* p, double* y) const {
   }
 }
 
-int PressureSolver::wingFaces() const { return impl_->wing.wingFaces(); }
+int PressureSolver::wingFaces() const { return impl_->faces; }
 double PressureSolver::setupSeconds() const { return impl_->setup_seconds; }
 
 }  // namespace monarch_flight

@@ -18,6 +18,7 @@ enum class Order : int {
   kRestore,
   kSurface,
   kVortices,
+  kField,
   kLeave
 };
 
@@ -108,6 +109,11 @@ std::vector<VortexPoint> SharedFlow::vortices(double q_threshold, int limit) con
   return flow_->vortices(q_threshold, limit);
 }
 
+std::shared_ptr<const FlowField> SharedFlow::flowField() const {
+  give(comm_, Order::kField);
+  return flow_->flowField();
+}
+
 void SharedFlow::dismiss(MPI_Comm comm) { give(comm, Order::kLeave); }
 
 void SharedFlow::serve(MPI_Comm comm) {
@@ -143,6 +149,9 @@ void SharedFlow::serve(MPI_Comm comm) {
           break;
         case Order::kVortices:
           share(comm, number), flow->vortices(number, 0);
+          break;
+        case Order::kField:
+          flow->flowField();
           break;
         case Order::kLeave:
           return;

@@ -28,6 +28,7 @@ class SharedFlow : public FluidModel {
   long cells() const override { return flow_->cells(); }
   SurfacePressure surfacePressure() const override;
   std::vector<VortexPoint> vortices(double q_threshold, int limit) const override;
+  std::shared_ptr<const FlowField> flowField() const override;
 
   /// What every process but 0 does until `dismiss`.
   static void serve(MPI_Comm comm);

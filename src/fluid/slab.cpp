@@ -23,7 +23,7 @@ Slab::Slab(MPI_Comm comm, int planes) : comm_(comm), k0_(0), k1_(planes) {
 
 void Slab::send(const double* data, int n, int to) const {
   MPI_Send(data, n, MPI_DOUBLE, to, kTag, comm_);
-  sent_ += n;
+  *sent_ += n;
 }
 
 void Slab::receive(double* data, int n, int from) const {
@@ -33,7 +33,7 @@ void Slab::receive(double* data, int n, int from) const {
 void Slab::exchange(const double* mine, double* other, int n, int with) const {
   MPI_Sendrecv(mine, n, MPI_DOUBLE, with, kTag, other, n, MPI_DOUBLE, with, kTag, comm_,
                MPI_STATUS_IGNORE);
-  sent_ += n;
+  *sent_ += n;
 }
 
 void Slab::shift(const double* out, double* in, int n, int direction) const {
@@ -42,7 +42,7 @@ void Slab::shift(const double* out, double* in, int n, int direction) const {
   MPI_Sendrecv(out, sends ? n : 0, MPI_DOUBLE, sends ? to : MPI_PROC_NULL, kTag, in,
                receives ? n : 0, MPI_DOUBLE, receives ? from : MPI_PROC_NULL, kTag, comm_,
                MPI_STATUS_IGNORE);
-  if (sends) sent_ += n;
+  if (sends) *sent_ += n;
 }
 
 void Slab::sum(double* values, int n) const {

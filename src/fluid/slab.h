@@ -1,6 +1,7 @@
 #pragma once
 #include <mpi.h>
 
+#include <memory>
 #include <vector>
 
 namespace monarch_flight {
@@ -49,8 +50,8 @@ class Slab {
   double max(double value) const;
   /// The bytes of all processes one after the other, on process 0; elsewhere empty.
   std::vector<char> gather(const std::vector<char>& mine) const;
-  /// Doubles sent by this process so far, for the scaling model.
-  long long doublesSent() const { return sent_; }
+  /// Doubles sent by this process so far through this slab and its copies, for the scaling model.
+  long long doublesSent() const { return *sent_; }
 
  private:
   void send(const double* data, int n, int to) const;
@@ -61,7 +62,7 @@ class Slab {
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, ranks_ = 1;
   int k0_, k1_;
-  mutable long long sent_ = 0;
+  std::shared_ptr<long long> sent_ = std::make_shared<long long>(0);  // of all copies together
 };
 
 }  // namespace monarch_flight

@@ -111,6 +111,7 @@ ParticipantRequest toMessage(const Request& request) {
   out.loads = toMessage(request.loads);
   out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
+  out.want_flow = request.want_flow;
   return out;
 }
 
@@ -122,6 +123,7 @@ Request fromMessage(const ParticipantRequest& request) {
   out.loads = fromMessage(request.loads);
   out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
+  out.want_flow = request.want_flow;
   return out;
 }
 
@@ -145,6 +147,8 @@ ParticipantReply toMessage(const Reply& reply) {
     }
   }
   out.wall_s = reply.wall_s;
+  const KernelTimes& kernels = reply.report.kernel_s;
+  if (kernels != KernelTimes{}) out.kernel_s.assign(kernels.begin(), kernels.end());
   out.error = reply.error;
   out.surface.reserve(reply.surface.facets.size());
   for (const SurfacePressure::Facet& f : reply.surface.facets) {
@@ -167,6 +171,7 @@ ParticipantReply toMessage(const Reply& reply) {
     sample.omega_y = v.omega_y;
     out.vortices.push_back(sample);
   }
+  if (reply.flow) out.flow.push_back(toMessage(*reply.flow));
   return out;
 }
 
@@ -190,6 +195,7 @@ Reply fromMessage(const ParticipantReply& reply) {
     }
   }
   out.wall_s = reply.wall_s;
+  std::copy(reply.kernel_s.begin(), reply.kernel_s.end(), out.report.kernel_s.begin());
   out.error = reply.error;
   out.surface.facets.reserve(reply.surface.size());
   for (const PressureFacet& f : reply.surface) {
@@ -199,6 +205,7 @@ Reply fromMessage(const ParticipantReply& reply) {
   for (const VortexSample& v : reply.vortices) {
     out.vortices.push_back({v.x, v.y, v.z, v.q, v.omega_y});
   }
+  if (!reply.flow.empty()) out.flow = fromMessage(reply.flow.front());
   return out;
 }
 
@@ -250,6 +257,14 @@ std::string problem(const ParticipantReply& reply) {
   const std::size_t numbers = reply.load_operator.size();
   if (numbers != 0 && numbers != 72) {
     return "load operator of " + std::to_string(numbers) + " numbers, not 72";
+  }
+  const std::size_t kernels = reply.kernel_s.size();
+  if (kernels != 0 && kernels != kKernels) {
+    return "times of " + std::to_string(kernels) + " kernels, not " + std::to_string(kKernels);
+  }
+  for (const WholeFlow& flow : reply.flow) {
+    const std::string misfit = problem(flow);
+    if (!misfit.empty()) return misfit;
   }
   const std::size_t picture = std::max(reply.surface.size(), reply.vortices.size());
   if (picture > kLargestPicture) return "a picture of " + std::to_string(picture) + " parts";

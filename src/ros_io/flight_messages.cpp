@@ -108,6 +108,7 @@ FlightState flightState(const CommittedStep& step, const ros::Time& stamp) {
   out.divergence = step.fluid.divergence;
   std::copy(step.wall_s.begin(), step.wall_s.end(), out.wall_s.begin());
   out.exchange_s = step.exchange_s;
+  out.coupling_s = step.coupling_s;
   return out;
 }
 
@@ -132,9 +133,7 @@ FlightMessages::FlightMessages(const Case& c)
     : case_(c),
       path_stride_(stride(c.time, kPathPosesPerFlap)),
       diagnostics_stride_(stride(c.time, kDiagnosticsPerFlap)) {
-  const double whole = c.time.steps * c.time.dt;
-  const double duration = c.time.period > 0.0 ? std::min(c.time.period, whole) : whole;
-  pressure_ = pressureReference(c.insect, *c.motion, c.air, c.time.t_start, duration);
+  pressure_ = pressureReference(c);
   path_.header.frame_id = frames::kWorld;
 }
 

@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "monarch_flight/fields/field_output.h"
 #include "monarch_flight/ros_io/node_main.h"
 #include "monarch_flight/run/federation.h"
 
@@ -13,6 +14,7 @@ FlightRun::FlightRun(const Case& c, const std::string& out, bool resume,
                      std::vector<MessageOutput*> listeners)
     : case_(c),
       checkpoints_(c, out, resume),
+      fields_(c.output.fields_every > 0 ? makeFieldOutput(c, out + "/fields", checkpoints_.outputs()) : nullptr),
       files_(c, out, &checkpoints_),
       progress_(std::cout, isatty(STDOUT_FILENO) != 0, c.time) {
   openBag(listeners);
@@ -54,6 +56,7 @@ int FlightRun::fly(std::uint64_t run_id, Participant& fluid, Participant& flight
                    RunControl& control, const StopFlag& stop) {
   std::vector<StepSink*> sinks = {&progress_};
   if (messages_) sinks.push_back(messages_.get());
+  if (fields_) sinks.push_back(fields_.get());
   sinks.push_back(&files_);  // the summary knows of the failures of those before it
   sinks.insert(sinks.end(), last_.begin(), last_.end());
   const RunResult result = runCase(case_, run_id, fluid, flight, wing, sinks, control,

@@ -28,9 +28,9 @@ RosParticipant::RosParticipant(const ros::NodeHandle& node, const LockstepIdenti
       node_(node, roleName(identity.role)),
       hello_out_(node_, "coordinator_hello", true, run.queue, identity.token),
       requests_(node_, "request", false, run.queue, identity.token),
-      hello_in_(subscribeOn(run.queue, node_, "hello", identity.token, counters_.forged,
+      hello_in_(subscribeOn(run.queue, node_, "hello", identity.token, counters_,
                             &RosParticipant::onHello, this)),
-      replies_(subscribeOn(run.queue, node_, "reply", identity.token, counters_.forged,
+      replies_(subscribeOn(run.queue, node_, "reply", identity.token, counters_,
                            &RosParticipant::onReply, this)) {
   run_.participants.push_back(this);
 }

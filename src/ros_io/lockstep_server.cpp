@@ -29,9 +29,9 @@ LockstepServer::LockstepServer(const ros::NodeHandle& node, const LockstepIdenti
       node_(node, roleName(identity.role)),
       hello_out_(node_, "hello", true, queue_, identity.token),
       replies_(node_, "reply", false, queue_, identity.token),
-      hello_in_(subscribeOn(queue_, node_, "coordinator_hello", identity.token, counters_.forged,
+      hello_in_(subscribeOn(queue_, node_, "coordinator_hello", identity.token, counters_,
                             &LockstepServer::onHello, this)),
-      requests_(subscribeOn(queue_, node_, "request", identity.token, counters_.forged,
+      requests_(subscribeOn(queue_, node_, "request", identity.token, counters_,
                             &LockstepServer::onRequest, this)) {}
 
 bool LockstepServer::coordinatorListens() const {

@@ -101,8 +101,14 @@ int inProcessMain(int argc, char** argv) {
     const RunParameters parameters = runParameters(argc, argv);
     if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
+    if (parameters.plan) {
+      const std::string plan = plannedRun(parameters, c);
+      std::cout << (plan.empty() ? "quasi-steady air: no grid to plan\n" : plan);
+      return static_cast<int>(kExitComplete);
+    }
     requireProcesses(parameters, c);
     const std::string out = outputDirectory(parameters, c);
+    std::cout << plannedRun(parameters, c);
     FlightRun run(c, out, !parameters.resume.empty(), {});
     InProcessFederation federation(c, checkpointFolder(out));
     FlyUntil control(stop_requested);

@@ -1,6 +1,7 @@
 #include "monarch_flight/ros_io/participant_node.h"
 
 #include <cstdlib>
+#include <iostream>
 #include <random>
 
 #include "monarch_flight/ros_io/flight_messages.h"
@@ -15,7 +16,10 @@ Case readCase(Role role) {
   XmlRpc::XmlRpcValue values = parametersOf(kNamespace);
   const RunParameters parameters = runParameters(values, std::string(kNamespace) + "/");
   const Case c = loadCase(parameters);
-  if (role == Role::kFluid) requireProcesses(parameters, c);
+  if (role == Role::kFluid) {
+    requireProcesses(parameters, c);
+    std::cout << plannedRun(parameters, c) << std::flush;
+  }
   return c;
 }
 

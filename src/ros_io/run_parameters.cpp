@@ -10,6 +10,7 @@
 
 #include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/run/plan.h"
 
 namespace monarch_flight {
 namespace {
@@ -19,8 +20,8 @@ using Values = std::map<std::string, std::string>;
 using Faults = std::vector<std::string>;
 
 const char kKnown[] =
-    "case, out, directory, fluid, grid, flaps, steps_per_flap, record, checkpoint_every, ranks, "
-    "watchdog, paused, resume, checkpoints";
+    "case, out, directory, fluid, grid, flaps, steps_per_flap, record, fields_every, "
+    "checkpoint_every, ranks, watchdog, paused, resume, checkpoints";
 
 bool oneOf(const std::string& key, std::initializer_list<const char*> names) {
   for (const char* name : names) {
@@ -59,8 +60,12 @@ void take(const std::string& key, const std::string& value, const std::string& w
     // of the coordinator to the solver nodes: participant_node.cpp
   } else if (key == "directory") {
     out.directory = value;
-  } else if (oneOf(key, {"fluid", "grid", "flaps", "steps_per_flap", "record", "checkpoint_every"})) {
+  } else if (oneOf(key, {"fluid", "grid", "flaps", "steps_per_flap", "record", "fields_every",
+                         "checkpoint_every"})) {
     out.overrides[key] = value;
+  } else if (key == "plan" && where.empty()) {
+    out.plan = value == "true";
+    if (!out.plan && value != "false") faults.push_back(shown + ": must be true or false");
   } else if (key == "watchdog") {
     out.watchdog_s = positiveNumber(value);
     if (out.watchdog_s == 0.0) faults.push_back(shown + ": must be a number of seconds > 0");
@@ -180,6 +185,13 @@ void requireProcesses(const RunParameters& parameters, const Case& c) {
                      " process(es); start it by mpirun -np " + std::to_string(parameters.ranks) +
                      ", as scripts/fly and the launch files do");
   }
+}
+
+std::string plannedRun(const RunParameters& parameters, const Case& c) {
+  if (c.fluid != FluidKind::kNavierStokes) return "";
+  const RunPlan plan = planRun(c, parameters.ranks);
+  requirePossible(plan);
+  return describe(plan);
 }
 
 std::string outputDirectory(const RunParameters& parameters, const Case& c) {

@@ -9,13 +9,22 @@
 #include <stdexcept>
 
 namespace monarch_flight {
+namespace {
+
+constexpr std::size_t kSeal = 32;  // bytes at the end of a message
+
+}  // namespace
 
 Token Token::fromEnvironment() {
   const char* secret = std::getenv(kVariable);
   return Token(secret != nullptr ? secret : "");
 }
 
-void Token::code(const std::vector<std::uint8_t>& text, std::uint8_t* out) const {
+void Token::seal(const std::string& topic, const std::vector<std::uint8_t>& bytes,
+                 std::uint8_t* out) const {
+  std::vector<std::uint8_t> text(topic.begin(), topic.end());
+  text.push_back(0);
+  text.insert(text.end(), bytes.begin(), bytes.end() - kSeal);
   unsigned int size = 0;
   if (HMAC(EVP_sha256(), secret_.data(), static_cast<int>(secret_.size()), text.data(), text.size(),
            out, &size) == nullptr ||
@@ -24,10 +33,11 @@ void Token::code(const std::vector<std::uint8_t>& text, std::uint8_t* out) const
   }
 }
 
-bool Token::matches(const std::vector<std::uint8_t>& text, const std::uint8_t* seal) const {
+bool Token::sealed(const std::string& topic, const std::vector<std::uint8_t>& bytes) const {
+  if (bytes.size() < kSeal) return false;
   std::array<std::uint8_t, kSeal> expected;
-  code(text, expected.data());
-  return CRYPTO_memcmp(expected.data(), seal, kSeal) == 0;
+  seal(topic, bytes, expected.data());
+  return CRYPTO_memcmp(expected.data(), bytes.data() + (bytes.size() - kSeal), kSeal) == 0;
 }
 
 }  // namespace monarch_flight

@@ -151,11 +151,17 @@ void readCoupling(Section section, double mean_chord, Case& c, Faults& faults) {
 void readOutput(Section section, Case& c) {
   c.output.record = section.flag("record");
   for (auto [key, value] : {std::pair{"surface_every", &c.output.surface_every},
-                            std::pair{"vortices_every", &c.output.vortices_every}}) {
+                            std::pair{"vortices_every", &c.output.vortices_every},
+                            std::pair{"fields_every", &c.output.fields_every}}) {
     *value = section.integer(key, "steps between pictures, 0: never");
     if (*value < 0) {
       section.fault(key, " = " + std::to_string(*value) + ": must be >= 0; 0 writes no pictures");
     }
+  }
+  if (c.output.fields_every > 0 && c.fluid == FluidKind::kQuasiSteady) {
+    section.fault("fields_every", " = " + std::to_string(c.output.fields_every) +
+                                      ": quasi_steady has no flow field; must be 0, or choose "
+                                      "fluid/solver navier_stokes");
   }
   c.output.checkpoint_every =
       section.integer("checkpoint_every", "steps between checkpoints, 0: none");

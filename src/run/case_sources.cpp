@@ -116,6 +116,7 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
       {"flaps", {"time", "flaps"}},
       {"steps_per_flap", {"time", "steps_per_flap"}},
       {"record", {"output", "record"}},
+      {"fields_every", {"output", "fields_every"}},
       {"checkpoint_every", {"output", "checkpoint_every"}}};
   for (const auto& [key, value] : overrides) {
     if (key == "grid") {
@@ -126,7 +127,7 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
     if (target == known.end()) {
       faults.add(key + ":=" + value +
                  " is not a known override: known are fluid, grid, flaps, steps_per_flap, record, "
-                 "checkpoint_every; correct or remove it");
+                 "fields_every, checkpoint_every; correct or remove it");
       continue;
     }
     const auto [section, name] = target->second;

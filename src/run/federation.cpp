@@ -85,6 +85,7 @@ CoupledModel makeModel(const Case& c) {
   model.t_start = c.time.t_start;
   model.steps = c.time.steps;
   model.surface_every = c.output.surface_every;
+  model.fields_every = c.output.fields_every;
   model.vortices_every = c.output.vortices_every;
   model.q_threshold = vortexThreshold(c);
   return model;

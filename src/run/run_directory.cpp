@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "monarch_flight/fluid/grid.h"
 #include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
@@ -69,8 +70,13 @@ RunDirectory::~RunDirectory() {
 std::uint64_t estimatedOutputBytes(const Case& c) {
   constexpr std::uint64_t kRow = 1100, kIterationRows = 10 * 180, kSmallFiles = 100000;
   constexpr std::uint64_t kBagStep = 20000, kSurface = 400000, kVortices = 800000;
+  constexpr std::uint64_t kFieldCell = 64;  // nine floats and a point of three doubles, packed
   const std::uint64_t steps = c.time.steps + std::uint64_t{1};
   std::uint64_t bytes = kSmallFiles + c.resolved_yaml.size() + steps * (kRow + kIterationRows);
+  if (c.fluid == FluidKind::kNavierStokes && c.output.fields_every > 0) {
+    const long cells = makeGrid(c.insect.planform, c.grid).cells();
+    bytes += steps / c.output.fields_every * static_cast<std::uint64_t>(cells) * kFieldCell;
+  }
   if (!c.output.record) return bytes;
   bytes += steps * kBagStep;
   if (c.output.surface_every > 0) bytes += (steps / c.output.surface_every + 1) * kSurface;

@@ -27,6 +27,18 @@ Json matrix(const Matrix6d& M) {
   return rows;
 }
 
+/// By kernel, and what is left of the fluid's time: set-up, pictures, fields.
+Json kernels(const KernelTimes& times, double fluid) {
+  Json j;
+  double rest = fluid;
+  for (std::size_t i = 0; i < kKernels; ++i) {
+    j[kKernelNames[i]] = times[i];
+    rest -= times[i];
+  }
+  j["rest"] = rest;
+  return j;
+}
+
 }  // namespace
 
 void Range::add(double value) {
@@ -47,9 +59,8 @@ void Summary::add(const CommittedStep& step) {
   theta_B_.add(body.pitch.q);
   theta_R_.add(step.interface.theta_R.q);
   hash_.add(step);
+  addTimes(step);
   ignored_ = step.ignored;
-  for (std::size_t i = 0; i < wall_.size(); ++i) wall_[i] += step.wall_s[i];
-  exchange_ += step.exchange_s;
   if (step.step == 0) {
     t_first_ = t_last_ = step.t;
     x_first_ = x_last_ = body.x;
@@ -81,6 +92,15 @@ void Summary::addWork(const CommittedStep& step) {
   work_structure_ += step.work_structure;
   work_error_ = std::max(work_error_, std::abs(step.work_fluid - step.work_structure));
   work_scale_ = std::max(work_scale_, std::abs(step.work_fluid));
+}
+
+void Summary::addTimes(const CommittedStep& step) {
+  for (std::size_t i = 0; i < wall_.size(); ++i) wall_[i] += step.wall_s[i];
+  exchange_ += step.exchange_s;
+  coupling_ += step.coupling_s;
+  outputs_ = outputs_before_ + step.outputs_s;
+  for (std::size_t i = 0; i < kernels_.size(); ++i)
+    kernels_[i] = kernels_before_[i] + step.fluid.kernel_s[i];
 }
 
 double Summary::flaps() const {
@@ -131,6 +151,13 @@ void Summary::memory(StateVisitor& state) {
   state("work_scale", work_scale_);
   state.numbers("wall_s", wall_.data(), wall_.size());
   state("wall_s_exchange", exchange_);
+  state("wall_s_coupling", coupling_);
+  state("wall_s_outputs", outputs_);
+  state.numbers("wall_s_kernels", kernels_.data(), kernels_.size());
+  if (state.loading()) {
+    outputs_before_ = outputs_;
+    kernels_before_ = kernels_;
+  }
   state("cells", cells_);
   state("added_mass", added_mass_);
   hash_.memory(state);
@@ -175,7 +202,10 @@ std::string Summary::json(const std::string& failure) const {
                  {"fluid", wall_[0]},
                  {"flight", wall_[1]},
                  {"wing", wall_[2]},
-                 {"exchange", exchange_}};
+                 {"exchange", exchange_},
+                 {"coupling", coupling_},
+                 {"outputs", outputs_}};
+  if (cells_ > 0) j["fluid_s"] = kernels(kernels_, wall_[0]);
   if (resumed_ != "[]") j["resumed"] = Json::parse(resumed_);
   j["ignored_messages"] = {{"late", ignored_.late},
                            {"repeated", ignored_.repeated},

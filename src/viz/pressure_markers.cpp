@@ -81,23 +81,6 @@ visualization_msgs::Marker colourBar(const Eigen::Vector3d& foot, double height,
 
 }  // namespace
 
-PressureReference pressureReference(const Insect& insect, const PrescribedMotion& motion,
-                                    const Air& air, double t_start, double duration) {
-  constexpr int kSamples = 200;
-  const Eigen::Vector3d tip(0.0, insect.planform.yTip(), 0.0);
-  double fastest = 0.0;
-  for (int i = 0; i <= kSamples; ++i) {
-    const PrescribedState state = motion.at(t_start + duration * i / kSamples);
-    const WingMotion wing = rightWingMotion(insect, state.body, state.angles);
-    const Eigen::Vector3d wind = wing.R_IW.transpose() * air.wind_I;
-    fastest = std::max(fastest, (wing.v_W + wing.omega_W.cross(tip) - wind).norm());
-  }
-  PressureReference out;
-  out.speed = fastest > 0.0 ? fastest : 1.0;
-  out.dynamic = 0.5 * air.rho * out.speed * out.speed;
-  return out;
-}
-
 visualization_msgs::MarkerArray pressureMarkers(const SurfacePressure& surface,
                                                 const PressureReference& reference, bool bare_wing,
                                                 double lift, const ros::Time& stamp) {

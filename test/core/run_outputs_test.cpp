@@ -77,6 +77,9 @@ CommittedStep stepAt(std::uint32_t n) {
   s.fluid.courant = 0.875;
   s.wall_s = {0.5, 0.25, 0.125};
   s.exchange_s = 0.0625;
+  s.coupling_s = 0.03125;
+  s.outputs_s = 0.5 * n;
+  for (std::size_t k = 0; k < kKernels; ++k) s.fluid.kernel_s[k] = 0.03125 * n * (k + 1.0) / 45;
   s.fluid_evaluations = n < 25 ? 10 : 33;
   s.added_mass_ratio = n == 25 ? 2.125 : 1.125;
   s.work_fluid = -0.25;
@@ -224,6 +227,13 @@ TEST_F(RunFiles, SummaryHasEveryKeyAndTheRightNumbers) {
   EXPECT_EQ(j.at("wall_s").at("flight"), 6.5);
   EXPECT_EQ(j.at("wall_s").at("wing"), 3.25);
   EXPECT_EQ(j.at("wall_s").at("exchange"), 1.625);
+  EXPECT_EQ(j.at("wall_s").at("coupling"), 0.8125);
+  EXPECT_EQ(j.at("wall_s").at("outputs"), 12.5);
+  const nlohmann::json& kernels = j.at("fluid_s");
+  EXPECT_EQ(kernels.size(), kKernels + 1);
+  EXPECT_NEAR(kernels.at("turning").get<double>(), 25 * 0.03125 / 45, 1e-15);
+  EXPECT_NEAR(kernels.at("projection").get<double>(), 25 * 0.03125 * 9 / 45, 1e-15);
+  EXPECT_NEAR(kernels.at("rest").get<double>(), 13.0 - 25 * 0.03125, 1e-12);
   EXPECT_GE(j.at("wall_s").at("total").get<double>(), 0.0);
   EXPECT_EQ(j.at("cells"), 42);
   ASSERT_EQ(j.at("added_mass").size(), 6u);

@@ -7,8 +7,8 @@ import unittest
 
 import flying
 
-KEYS = ("case", "fluid", "grid", "flaps", "steps_per_flap", "out", "rviz", "record", "ranks",
-        "in_process")
+KEYS = ("case", "fluid", "grid", "flaps", "steps_per_flap", "out", "rviz", "record", "fields_every",
+        "ranks", "fluid_node", "paused", "plan", "in_process")
 
 
 class WrongInput(flying.FlightTest):
@@ -40,6 +40,24 @@ class WrongInput(flying.FlightTest):
             f.write("x")
         self.assertIn("holds something already", self.refused("out:=" + self.out()))
         self.assertEqual(os.listdir(self.out()), ["precious"])
+
+    def test_plan_tells_and_writes_nothing(self):
+        code, output = self.fly("case:=tethered_fwuav", "plan:=true", "out:=" + self.out())
+        self.assertEqual(code, 0, output)
+        for word in ("million cells", "cells a mean chord", "Courant number", "memory:", "time: set-up"):
+            self.assertIn(word, output)
+        self.assertFalse(os.path.exists(self.out()))
+
+    def test_plan_refuses_what_cannot_be(self):
+        code, output = self.fly("case:=tethered_fwuav", "plan:=true", "ranks:=1000", "out:=" + self.out())
+        self.assertEqual(code, 2, output)
+        self.assertIn("ranks = 1000: must be at most", output)
+
+    def test_quasi_steady_air_has_no_fields(self):
+        code, output = self.fly("fluid:=quasi_steady", "fields_every:=5", "in_process:=true", "out:=" + self.out())
+        self.assertEqual(code, 2, output)
+        self.assertIn("output/fields_every = 5: quasi_steady has no flow field", output)
+        self.assertFalse(os.path.exists(self.out()))
 
     def bad_case(self):
         with open(os.path.join(flying.ROOT, "config", "cases", "climb.yaml")) as f:

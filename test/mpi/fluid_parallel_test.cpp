@@ -71,6 +71,61 @@ TEST_P(Processes, GiveTheSameLoads) {
   EXPECT_EQ(fly(together, 8), all);  // repeatable bit for bit
 }
 
+/// What docs/scaling.md says that this process sends in a step of one evaluation [doubles].
+long long sentInAStep(const Layout& l, const Slab& slab, int k_wing) {
+  const long long m = l.sz, n = static_cast<long long>(l.nx) * l.ny;
+  const int below = !slab.atBottom(), above = !slab.atTop(), neighbours = below + above;
+  const bool under = l.k0 < k_wing, over = l.k1 > k_wing;
+  const int inwards = (under && l.k1 <= k_wing && above) || (over && l.k0 >= k_wing && below);
+  const int outwards = (under && below) + (over && above);
+  const long long halo = (6 + 1 + 4) * neighbours * m + above * n;  // old levels; w; commit; phi
+  const long long z_factor = 3 * (2 * inwards + outwards) * m;
+  const long long pressure = (inwards + outwards) * n;
+  return halo + z_factor + pressure;
+}
+
+TEST_P(Processes, SendWhatTheScalingModelSays) {
+  NavierStokes flow(plate(GetParam()), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
+  fly(flow, 2);
+  const double dt = 0.01;
+  const long long before = flow.slab().doublesSent();
+  flow.evaluate(flapping(3 * dt));
+  flow.commit();
+  EXPECT_EQ(sentInAStep(flow.layout(), flow.slab(), flow.grid().k_wing),
+            flow.slab().doublesSent() - before);
+}
+
+TEST_P(Processes, GatherTheWholeFlow) {
+  NavierStokes alone(plate(GetParam()), thinAir(), 1.0, 10.0);
+  NavierStokes together(plate(GetParam()), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
+  fly(alone, 3);
+  fly(together, 3);
+  const auto one = alone.flowField(), all = together.flowField();
+  if (together.slab().rank() != 0) return;
+  ASSERT_EQ(one->cells(), all->cells());
+  ASSERT_EQ(one->wing.size(), all->wing.size());
+  for (auto part : {&FlowField::velocity, &FlowField::vorticity, &FlowField::pressure,
+                    &FlowField::q}) {
+    const std::vector<float>&a = (*one).*part, &b = (*all).*part;
+    ASSERT_EQ(a.size(), b.size());
+    float largest = 0, apart = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      largest = std::max(largest, std::abs(a[i]));
+      apart = std::max(apart, std::abs(a[i] - b[i]));
+    }
+    EXPECT_GT(largest, 0);
+    EXPECT_LT(apart, 1e-6 * largest);
+  }
+  float friction = 0, apart = 0;
+  for (std::size_t i = 0; i < one->wing.size(); ++i) {
+    const auto &a = one->wing[i], &b = all->wing[i];
+    friction = std::max(friction, std::abs(a.friction_upper[0]));
+    apart = std::max(apart, std::abs(a.friction_upper[0] - b.friction_upper[0]));
+    EXPECT_NEAR(a.p_lower, b.p_lower, 1e-5 * std::abs(a.p_lower));
+  }
+  EXPECT_LT(apart, 1e-6 * friction);
+}
+
 TEST_P(Processes, SaveAndRestoreBitwise) {
   NavierStokes flow(plate(GetParam()), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
   fly(flow, 3);
@@ -120,7 +175,8 @@ bool sharedFlowFlies() {
   shared.restore(state);
   const bool same = shared.evaluate(flapping(0.05)).force() == force;
   const bool pictures = shared.surfacePressure().facets.size() == alone.surfacePressure().facets.size() &&
-                        shared.vortices(1.0, 50).size() == alone.vortices(1.0, 50).size();
+                        shared.vortices(1.0, 50).size() == alone.vortices(1.0, 50).size() &&
+                        shared.flowField()->cells() == alone.flowField()->cells();
   SharedFlow::dismiss(MPI_COMM_WORLD);
   std::printf("shared flow: difference %g, restored %d, pictures %d\n", worst, same, pictures);
   return worst < 1e-10 && same && pictures;

@@ -74,6 +74,7 @@ TEST(Conversions, RequestsCrossTheWireBitForBit) {
     expectBitwise(request.interface, back.interface);
     expectBitwise(request.loads, back.loads);
     EXPECT_EQ(request.want_fields, back.want_fields);
+    EXPECT_EQ(request.want_flow, back.want_flow);
     EXPECT_EQ(request.want_operator, back.want_operator);
   }
 }
@@ -91,6 +92,7 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
       for (int k = 0; k < 36; ++k) reply.report.added_mass(k / 6, k % 6) = anyNumber();
     }
     reply.report.operator_cost = i % 7;
+    for (double& s : reply.report.kernel_s) s = anyNumber();
     if (i % 3 == 1) {
       reply.jacobian.emplace();
       for (int k = 0; k < 36; ++k) {
@@ -112,6 +114,9 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
     EXPECT_EQ(reply.report.cells, back.report.cells);
     expectBitwise(reply.report.added_mass, back.report.added_mass);
     EXPECT_EQ(reply.report.operator_cost, back.report.operator_cost);
+    for (std::size_t k = 0; k < kKernels; ++k) {
+      expectBitwise(reply.report.kernel_s[k], back.report.kernel_s[k]);
+    }
     ASSERT_EQ(reply.jacobian.has_value(), back.jacobian.has_value());
     if (reply.jacobian) {
       expectBitwise(reply.jacobian->velocity, back.jacobian->velocity);
@@ -125,6 +130,52 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
     expectBitwise(reply.vortices[0], back.vortices[0]);
     expectBitwise(reply.vortices[1], back.vortices[1]);
   }
+}
+
+FlowField smallFlow() {
+  FlowField flow;
+  flow.x = {0, 1, 2};
+  flow.y = {0, 0.1};
+  flow.z = {-1, 0, 0.5, 7};
+  for (int n = 0; n < 6; ++n) {
+    for (int c = 0; c < 3; ++c) {
+      flow.velocity.push_back(float(anyNumber()));
+      flow.vorticity.push_back(float(anyNumber()));
+    }
+    flow.pressure.push_back(float(anyNumber()));
+    flow.q.push_back(float(anyNumber()));
+  }
+  flow.wing = {{1, 2, 3, 4, 5, 6, {7, 8}, {9, 10}}, {-1, -2, -3, -4, -5, -6, {-7, -8}, {-9, -10}}};
+  return flow;
+}
+
+TEST(Conversions, AFlowCrossesBitForBit) {
+  const FlowField flow = smallFlow();
+  Reply reply;
+  reply.flow = std::make_shared<FlowField>(flow);
+  const ParticipantReply message = overTheWire(toMessage(reply));
+  EXPECT_EQ("", problem(message));
+  const Reply back = fromMessage(message);
+  ASSERT_NE(nullptr, back.flow);
+  EXPECT_EQ(flow.x, back.flow->x);
+  EXPECT_EQ(flow.y, back.flow->y);
+  EXPECT_EQ(flow.z, back.flow->z);
+  EXPECT_EQ(flow.velocity, back.flow->velocity);
+  EXPECT_EQ(flow.vorticity, back.flow->vorticity);
+  EXPECT_EQ(flow.pressure, back.flow->pressure);
+  EXPECT_EQ(flow.q, back.flow->q);
+  ASSERT_EQ(2u, back.flow->wing.size());
+  EXPECT_EQ(0, std::memcmp(flow.wing.data(), back.flow->wing.data(),
+                           2 * sizeof(FlowField::WingFace)));
+  EXPECT_EQ(nullptr, fromMessage(toMessage(Reply())).flow);
+}
+
+TEST(Conversions, AFlowThatDoesNotFitItsGridIsNamed) {
+  Reply reply;
+  FlowField flow = smallFlow();
+  flow.pressure.pop_back();
+  reply.flow = std::make_shared<FlowField>(flow);
+  EXPECT_EQ("a flow whose arrays do not fit its 6 cells", problem(toMessage(reply)));
 }
 
 TEST(Conversions, IterationRecordsCrossBitForBit) {

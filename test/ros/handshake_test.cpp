@@ -43,6 +43,49 @@ TEST_F(Lockstep, AnotherProtocolVersionIsRefused) {
   EXPECT_EQ("", disagreement(fluid, makeHello(fluid, 1)));
 }
 
+TEST_F(Lockstep, AnotherTokenIsNoHandshake) {
+  LockstepIdentity stranger = fluid;
+  stranger.token = Token("guessed");
+  run.limits.connect_s = server_limits.connect_s = 0.7;
+  startServer(stranger);
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  try {
+    client->connect();
+    FAIL() << "the client agreed";
+  } catch (const ExchangeError& e) {
+    const std::string what = e.what();
+    EXPECT_NE(std::string::npos, what.find("did not answer the handshake within 0.7 s")) << what;
+  }
+  joinServer();
+  EXPECT_NE(std::string::npos, server_end.find("with the same MONARCH_FLIGHT_TOKEN? (1 messages"))
+      << server_end;
+  EXPECT_EQ(1u, server->counters().forged);
+  EXPECT_EQ(0, solver.computed);
+}
+
+TEST_F(Lockstep, ASealIsGoodForItsTopicAndMessageOnly) {
+  const Token token("secret");
+  Hello hello = makeHello(fluid, 42);
+  token.seal("/a/hello", hello);
+  const auto bytesOf = [](const Hello& message) {
+    std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+    ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    ros::serialization::serialize(stream, message);
+    return bytes;
+  };
+  EXPECT_TRUE(token.sealed("/a/hello", bytesOf(hello)));
+  EXPECT_FALSE(token.sealed("/b/hello", bytesOf(hello)));
+  EXPECT_FALSE(Token("other").sealed("/a/hello", bytesOf(hello)));
+  EXPECT_FALSE(Token().sealed("/a/hello", bytesOf(hello)));
+  for (std::size_t i = 0; i < bytesOf(hello).size(); ++i) {
+    std::vector<std::uint8_t> bytes = bytesOf(hello);
+    bytes[i] ^= 4;
+    EXPECT_FALSE(token.sealed("/a/hello", bytes)) << i;
+  }
+  EXPECT_FALSE(token.sealed("/a/hello", {}));
+  EXPECT_FALSE(token.sealed("/a/hello", std::vector<std::uint8_t>(32, 0)));
+}
+
 TEST_F(Lockstep, AnAnswerToAnotherRunIsNoHandshake) {
   run.limits.connect_s = 0.5;
   client = std::make_unique<RosParticipant>(node, fluid, run);

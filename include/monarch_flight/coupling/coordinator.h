@@ -69,7 +69,7 @@ class Coordinator {
   std::uint32_t start();
   void startAgain();
   void resume();
-  void deliver(const CommittedStep& step);
+  void deliver(CommittedStep& step);
   void heed(RunControl& control, const CommittedStep& out);
   void memory(StateVisitor& state);
   void keep(std::uint32_t step);
@@ -113,6 +113,7 @@ class Coordinator {
   StateSnapshot before_;                   // memory of level n, while a step is solved
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known
+  double outputs_s_ = 0.0;                 // wall time of the sinks so far
   // Running scales: largest of the recent past, at least what is worth noticing.
   double force_scale_ = 0.0, moment_scale_ = 0.0;
   CouplingVector increment_scales_ = CouplingVector::Zero();

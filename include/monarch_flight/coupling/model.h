@@ -23,6 +23,7 @@ struct CoupledModel {
   double t_start = 0.0;      ///< time of step 0 [s]
   std::uint32_t steps = 0;   ///< of the whole run
   int surface_every = 0;     ///< committed steps between pictures of the wing's pressure (0: never)
+  int fields_every = 0;      ///< committed steps between answers with the whole flow (0: never)
   int vortices_every = 0;    ///< committed steps between pictures of the vortices (0: never)
   double q_threshold = 0.0;  ///< vortices are where Q exceeds it [1/s^2]
   int vortex_limit = 20000;  ///< points at most in a picture of vortices

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -49,6 +50,7 @@ struct Request {
   Interface interface;   ///< guess of level `step` (START: the initial state)
   Loads loads;           ///< of this sub-iteration; zero in the request to the fluid
   bool want_operator = false;  ///< ITERATE to the fluid: answer with the loads' Jacobian too
+  bool want_flow = false;    ///< COMMIT to the fluid: answer with the whole flow
   bool want_fields = false;  ///< COMMIT to the fluid: answer with surface pressure and vortices
 };
 
@@ -62,6 +64,7 @@ struct Reply {
   std::string error;     ///< empty: good; else why the participant cannot go on
   SurfacePressure surface;           ///< only when asked for
   std::vector<VortexPoint> vortices; ///< only when asked for
+  std::shared_ptr<const FlowField> flow; ///< only when asked for; null where there is no field
 };
 
 /// Messages that were not for this run or not well formed, and were therefore not used.

@@ -64,9 +64,12 @@ struct CommittedStep {
   FluidReport fluid;
   SurfacePressure surface;             ///< empty unless fields were due
   std::vector<VortexPoint> vortices;   ///< empty unless fields were due
+  std::shared_ptr<const FlowField> flow;  ///< null unless it was due and there is one
   std::array<double, 3> wall_s{};      ///< computing time of fluid, flight, wing in this step
   IgnoredMessages ignored;             ///< of all participants since the run began
-  double exchange_s = 0.0;             ///< wall time of the step outside the participants' own computing
+  double exchange_s = 0.0;             ///< wall time of the step's exchanges beyond that: messages and waiting
+  double coupling_s = 0.0;             ///< wall time of the coordinator's own computing in this step
+  double outputs_s = 0.0;              ///< wall time that the sinks took for all steps before this one
 };
 
 /// Receives every committed step, in order: files, bag, publishers, progress bar.

@@ -1,8 +1,11 @@
 #pragma once
 #include <Eigen/Dense>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "monarch_flight/fluid/flow_field.h"
+#include "monarch_flight/fluid/kernel_times.h"
 #include "monarch_flight/insect/state.h"
 
 namespace monarch_flight {
@@ -42,6 +45,7 @@ struct FluidReport {
   long cells = 0;
   Matrix6d added_mass = Matrix6d::Zero();
   int operator_cost = 0;  ///< FluidModel::operatorCost
+  KernelTimes kernel_s{};  ///< wall time by kernel since `start` (0: no grid), of process 0
 };
 
 /// The one contract of all flow models. A model owns a committed state at time level n.
@@ -71,6 +75,8 @@ class FluidModel {
   virtual SurfacePressure surfacePressure() const = 0;
   /// At most `limit` points with Q > q_threshold; empty where there is no field.
   virtual std::vector<VortexPoint> vortices(double q_threshold, int limit) const = 0;
+  /// The committed level as a whole; null where there is no field.
+  virtual std::shared_ptr<const FlowField> flowField() const { return nullptr; }
 };
 
 /// Uniform air and gravity.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "monarch_flight/fluid/grid.h"
+#include "monarch_flight/fluid/kernel_times.h"
 
 namespace monarch_flight {
 
@@ -35,6 +36,8 @@ class PressureSolver {
   /// In place: b in, p out; nx*ny*nz doubles, x fastest, best 64-byte aligned. Allocates nothing.
   /// Uses scratch of this object: one call at a time.
   void solve(double* b_to_p) const;
+  /// The same; adds the time of its parts to `times`.
+  void solve(double* b_to_p, KernelTimes& times) const;
   /// y = A p, the operator above, for checks (any p).
   void apply(const double* p, double* y) const;
 

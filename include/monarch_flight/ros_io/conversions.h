@@ -5,8 +5,10 @@
 #include <monarch_flight/ParticipantReply.h>
 #include <monarch_flight/ParticipantRequest.h>
 #include <monarch_flight/SubIteration.h>
+#include <monarch_flight/WholeFlow.h>
 #include <monarch_flight/WingLoads.h>
 
+#include <memory>
 #include <string>
 
 #include "monarch_flight/coupling/participant.h"
@@ -22,6 +24,11 @@ constexpr std::uint32_t kProtocolVersion = ParticipantRequest::PROTOCOL;
 CouplingKey toMessage(const ExchangeKey& key);
 InterfaceState toMessage(const Interface& interface);
 WingLoads toMessage(const Loads& loads);
+WholeFlow toMessage(const FlowField& flow);
+std::shared_ptr<const FlowField> fromMessage(const WholeFlow& flow);
+/// Why the arrays do not belong to one grid; empty when they do.
+std::string problem(const WholeFlow& flow);
+
 ParticipantRequest toMessage(const Request& request);
 ParticipantReply toMessage(const Reply& reply);
 SubIteration toMessage(const IterationRecord& record);

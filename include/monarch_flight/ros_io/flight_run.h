@@ -31,6 +31,7 @@ class FlightRun {
   void openBag(std::vector<MessageOutput*>& listeners);
 
   const Case& case_;
+  std::unique_ptr<StepSink> fields_;  // before the folder: a build without VTK refuses
   Checkpoints checkpoints_;
   RunOutputs files_;
   std::unique_ptr<BagOutput> bag_;

@@ -9,6 +9,7 @@
 
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/stop_flag.h"
+#include "monarch_flight/ros_io/sealed.h"
 #include "monarch_flight/ros_io/token.h"
 
 namespace monarch_flight {
@@ -83,23 +84,40 @@ class WatchedPublisher {
   ros::Publisher publisher_;
 };
 
+/// Null where the bytes are not such a message.
+template <class Message>
+boost::shared_ptr<Message> parsed(const std::vector<std::uint8_t>& bytes) {
+  auto message = boost::make_shared<Message>();
+  ros::serialization::IStream stream(const_cast<std::uint8_t*>(bytes.data()),
+                                     static_cast<std::uint32_t>(bytes.size()));
+  try {
+    ros::serialization::deserialize(stream, *message);
+  } catch (const ros::serialization::StreamOverrunException&) {
+    return nullptr;
+  }
+  return message;
+}
+
 /// Subscribes on `queue` without Nagle's delay. The callback hears what carries the token's seal;
-/// the rest is counted in `forged`, which must outlive the subscriber.
+/// the rest is counted: `ignored` must outlive the subscriber.
 template <class Message, class Object>
 ros::Subscriber subscribeOn(ros::CallbackQueue& queue, ros::NodeHandle& node,
-                            const std::string& topic, const Token& token, std::uint64_t& forged,
+                            const std::string& topic, const Token& token, IgnoredMessages& ignored,
                             void (Object::*callback)(const boost::shared_ptr<Message const>&),
                             Object* object) {
   ros::SubscribeOptions options;
-  options.template init<Message>(topic, kIncoming,
-                                 [full = node.resolveName(topic), token, &forged, object,
-                                  callback](const boost::shared_ptr<Message const>& m) {
-                                   if (token.sealed(full, *m)) {
-                                     (object->*callback)(m);
-                                   } else {
-                                     ++forged;
-                                   }
-                                 });
+  options.template init<Sealed<Message>>(
+      topic, kIncoming,
+      [full = node.resolveName(topic), token, &ignored, object,
+       callback](const boost::shared_ptr<Sealed<Message> const>& sealed) {
+        if (!token.sealed(full, sealed->bytes)) {
+          ++ignored.forged;
+        } else if (const auto message = parsed<Message>(sealed->bytes)) {
+          (object->*callback)(message);
+        } else {
+          ++ignored.malformed;
+        }
+      });
   options.callback_queue = &queue;
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   return node.subscribe(options);

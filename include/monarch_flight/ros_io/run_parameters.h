@@ -17,7 +17,9 @@ struct RunParameters {
   std::string out;             ///< folder of the results; empty: flights/<case>-<time>
   std::string resume;          ///< folder of a run to go on with; empty: a new run
   std::string directory;       ///< where relative paths start; empty: the working directory
-  CaseOverrides overrides;     ///< fluid, grid, flaps, steps_per_flap, record, checkpoint_every
+  /// fluid, grid, flaps, steps_per_flap, record, fields_every, checkpoint_every
+  CaseOverrides overrides;
+  bool plan = false;           ///< `plan`: tell what the run means and end (command line only)
   int ranks = 1;               ///< `ranks`: processes of the flow solver
   bool paused = false;         ///< `paused`: hold the run at its start (nodes only)
   double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
@@ -43,6 +45,9 @@ Case loadCase(const RunParameters& parameters);
 /// Throws InputError unless mpirun started as many processes as `ranks` says (1: without mpirun)
 /// and the fluid of the case can use them. For the program that holds the fluid.
 void requireProcesses(const RunParameters& parameters, const Case& c);
+/// What the run means (RunPlan), for people; with Navier-Stokes air on this machine. Throws
+/// InputError when that cannot be.
+std::string plannedRun(const RunParameters& parameters, const Case& c);
 /// Where the run writes: absolute path.
 std::string outputDirectory(const RunParameters& parameters, const Case& c);
 /// The config folder: beside an installed package's executables, else in the source tree it was

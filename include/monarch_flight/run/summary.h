@@ -38,6 +38,7 @@ class Summary {
   void memory(StateVisitor& state);
   Eigen::Vector3d meanVelocity() const;
   void addWork(const CommittedStep& step);
+  void addTimes(const CommittedStep& step);
   double climbAngleDegrees() const;
   const Range& subIterations() const;
   double flaps() const;
@@ -54,7 +55,10 @@ class Summary {
   std::uint32_t retried_ = 0;
   double work_fluid_ = 0.0, work_structure_ = 0.0, work_error_ = 0.0, work_scale_ = 0.0;
   std::array<double, 3> wall_{};
-  double exchange_ = 0.0;
+  double exchange_ = 0.0, coupling_ = 0.0, outputs_ = 0.0;
+  KernelTimes kernels_{};
+  double outputs_before_ = 0.0;    // of the parts flown before a resumption, as the next one
+  KernelTimes kernels_before_{};
   long cells_ = 0;
   Matrix6d added_mass_ = Matrix6d::Zero();
   IgnoredMessages ignored_;

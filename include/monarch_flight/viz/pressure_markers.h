@@ -5,21 +5,9 @@
 
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/insect/insect.h"
-#include "monarch_flight/insect/prescribed_motion.h"
+#include "monarch_flight/run/pressure_reference.h"
 
 namespace monarch_flight {
-
-/// Reference of the pressure coefficient Cp = p / (rho U_ref^2 / 2).
-struct PressureReference {
-  double speed = 1.0;    ///< U_ref [m/s]
-  double dynamic = 1.0;  ///< rho U_ref^2 / 2 [Pa]
-};
-
-/// U_ref is the largest speed of the wing's tip through the air that the prescribed motion reaches
-/// in [t_start, t_start + duration]; 1 m/s when it does not move. One constant for the whole run,
-/// so that colours of different times compare.
-PressureReference pressureReference(const Insect& insect, const PrescribedMotion& motion,
-                                    const Air& air, double t_start, double duration);
 
 /// Colours run from -kPressureRange (blue) to +kPressureRange (red).
 constexpr double kPressureRange = 1.0;

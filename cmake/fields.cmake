@@ -1,0 +1,16 @@
+# Files of the flow for ParaView. VTK is wanted for them alone: without it the rest is built, and a
+# case that asks for fields is refused.
+file(GLOB fields_files CONFIGURE_DEPENDS src/fields/*.cpp src/fields/*.h include/monarch_flight/fields/*.h)
+forbid_ros(fields ${fields_files})
+find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel IOXML)
+if(VTK_FOUND)
+  add_library(monarch_fields SHARED src/fields/field_output.cpp src/fields/vtk_data.cpp)
+  target_link_libraries(monarch_fields PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
+else()
+  message(STATUS "VTK not found (scripts/install fields): built without files of the flow")
+  add_library(monarch_fields SHARED src/fields/without_vtk.cpp)
+endif()
+target_include_directories(monarch_fields PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+target_link_libraries(monarch_fields PUBLIC monarch_run)
+target_link_options(monarch_fields PRIVATE -Wl,--no-undefined)
+list(APPEND CORE_LAYERS monarch_fields)

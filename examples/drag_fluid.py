@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""A fluid node of one's own: each wing a rectangle with nothing but drag normal to its plane.
+
+  roslaunch monarch_flight flight.launch case:=climb fluid_node:=drag_fluid.py flaps:=0.1
+
+Force on a strip of the wing: -1/2 rho C_n c dy |u| u along the wing's normal, u being its speed
+normal to the wing at half chord; C_n = 1.98 is the measured normal-force coefficient of a plate
+square to the stream. No lift, no added mass, no wake: an example of the protocol, not of a wing.
+"""
+import sys
+
+import numpy as np
+from monarch_flight.msg import ParticipantReply
+
+from solver_node import SolverNode
+
+NORMAL_FORCE = 1.98
+STRIPS = 20
+SMALL = 1e-6  # step of difference quotients [m/s, rad/s]
+
+
+def rotation(axis, angle):
+    """Takes components in the turned axes to those in the old ones."""
+    c, s = np.cos(angle), np.sin(angle)
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    R = np.eye(3)
+    R[i, i] = R[j, j] = c
+    R[i, j], R[j, i] = -s, s
+    return R
+
+
+def series(terms, frequency, t):
+    """(angle, rate) [rad, rad/s] of a Fourier series in degrees."""
+    angle, rate = terms["A0"], 0.0
+    for n, (a, b) in enumerate(zip(terms["AN"], terms["BN"])):
+        w = 2 * np.pi * frequency * terms["multiple"] * (n + 1)
+        angle += a * np.cos(w * t) + b * np.sin(w * t)
+        rate += w * (b * np.cos(w * t) - a * np.sin(w * t))
+    return np.radians(angle), np.radians(rate)
+
+
+class DragFluid:
+    """The state of this fluid is nothing: the loads follow from the wing's motion of the moment."""
+
+    def start(self, case, request):
+        wing, motion = case["insect"]["wing"], case["motion"]
+        if not isinstance(wing["planform"].get("scale_span"), float) or motion["type"] != "fourier":
+            raise ValueError("this fluid needs a planform with scale_span and a motion in Fourier "
+                             "series, as the case climb has them")
+        span, area = wing["planform"]["scale_span"], wing["planform"]["scale_area"]
+        self.y = (np.arange(STRIPS) + 0.5) * span / STRIPS
+        self.factor = 0.5 * case["fluid"]["density"] * NORMAL_FORCE * area / STRIPS
+        self.x = -0.5 * area / span  # half chord; the hinge is at the leading edge
+        self.wind = np.array(case["fluid"]["wind"])
+        self.beta, self.root, self.motion = case["insect"]["beta"], np.array(wing["root"]), motion
+        return ParticipantReply(interface=request.interface)
+
+    def iterate(self, request):
+        u = self.wing_velocity(request)
+        reply = ParticipantReply(interface=request.interface)
+        force, moment = np.split(self.loads(u), 2)
+        reply.loads.force_pressure, reply.loads.moment_pressure = list(force), list(moment)
+        if request.want_operator:
+            reply.load_operator = list(self.jacobian(u).ravel()) + 36 * [0.0]
+        return reply
+
+    def commit(self, request):
+        return ParticipantReply(interface=request.interface)
+
+    def wing_velocity(self, request):
+        """(velocity of the root against the air, angular velocity), wing axes [m/s, rad/s]."""
+        state, f = request.interface, self.motion["frequency"]
+        phi, phi_dot = series(self.motion["phi_deg"], f, request.t)
+        psi, psi_dot = series(self.motion["psi_deg"], f, request.t)
+        theta, theta_dot = state.theta_r[0], state.theta_r[1]
+        Q_BW = rotation(1, self.beta) @ rotation(0, phi) @ rotation(2, -psi) @ rotation(1, theta)
+        R_IB = np.reshape(state.attitude, (3, 3))
+        Omega_B = np.array(state.angular_velocity)
+        rate = np.array([phi_dot * np.cos(psi) * np.cos(theta) + psi_dot * np.sin(theta),
+                         phi_dot * np.sin(psi) + theta_dot,
+                         phi_dot * np.cos(psi) * np.sin(theta) - psi_dot * np.cos(theta)])
+        v_B = R_IB.T @ (np.array(state.velocity) - self.wind) + np.cross(Omega_B, self.root)
+        return np.concatenate([Q_BW.T @ v_B, rate + Q_BW.T @ Omega_B])
+
+    def loads(self, u):
+        """(force; moment about the root), wing axes [N, N m]."""
+        v, omega = u[:3], u[3:]
+        normal = v[2] + omega[0] * self.y - omega[1] * self.x
+        f = -self.factor * np.abs(normal) * normal
+        return np.array([0, 0, f.sum(), (self.y * f).sum(), -self.x * f.sum(), 0])
+
+    def jacobian(self, u):
+        """d(loads)/d(velocities), by central differences."""
+        steps = SMALL * np.eye(6)
+        return np.transpose([(self.loads(u + d) - self.loads(u - d)) / (2 * SMALL) for d in steps])
+
+
+if __name__ == "__main__":
+    sys.exit(SolverNode("fluid", DragFluid()).serve())

@@ -1,0 +1,162 @@
+"""The solver's end of the lockstep protocol (docs/protocol.md) in Python: a node of one's own in
+place of the fluid, flight or wing node.
+
+A solver is an object with
+  start(case, request)         the resolved case (a dict) and the START request; returns a reply
+  iterate(request)             returns a reply: a function of the committed state and the request
+  commit(request)              keeps what was answered to the last iterate; returns a reply
+A reply is a ParticipantReply whose key, protocol, wall_s and seal are filled in here. An exception
+becomes the reply's error, and the coordinator tells the person.
+"""
+import hashlib
+import hmac
+import io
+import os
+import threading
+import time
+
+# Reached from this machine only, unless the person has given the node an address.
+if "ROS_IP" not in os.environ:
+    os.environ.setdefault("ROS_HOSTNAME", "localhost")
+
+import rospy  # noqa: E402  (reads the address when it is imported)
+import yaml
+from monarch_flight.msg import CouplingKey, Hello, ParticipantReply, ParticipantRequest
+from std_msgs.msg import String
+
+NAMESPACE = "/monarch_flight"
+SEAL = 32  # bytes at the end of every message
+TOKEN = os.environ.get("MONARCH_FLIGHT_TOKEN", "").encode()
+
+
+def seal_of(topic, data):
+    """Of a serialized message, whose own seal is left out."""
+    return hmac.new(TOKEN, topic.encode() + b"\0" + data[:-SEAL], hashlib.sha256).digest()
+
+
+def serialized(message):
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+def order(key):
+    """Requests of a run come in this order."""
+    return key.reset, key.step, key.phase, key.iteration
+
+
+class SolverNode:
+    """Serves one run, then ends."""
+
+    def __init__(self, role, solver):
+        self.role, self.solver = role, solver
+        self.place = "%s/%s/" % (NAMESPACE, role)
+        self.lock = threading.Lock()  # each connection has a thread of its own
+        self.greeting = self.cache = self.case = None
+        self.case_known, self.over = threading.Event(), threading.Event()
+        self.refused = 0
+        rospy.init_node(role, disable_signals=True)
+        self.replies = rospy.Publisher(self.place + "reply", ParticipantReply, queue_size=8,
+                                       tcp_nodelay=True)
+        self.hello = rospy.Publisher(self.place + "hello", Hello, latch=True, queue_size=8)
+        rospy.Subscriber(NAMESPACE + "/case", String, self.on_case)
+        self.listen("coordinator_hello", Hello, self.on_hello)
+        self.listen("request", ParticipantRequest, self.on_request)
+
+    def listen(self, name, kind, callback):
+        """What carries the seal of the run's token is parsed and handed on."""
+        topic = self.place + name
+
+        def check(raw):
+            data = raw._buff
+            with self.lock:
+                if not hmac.compare_digest(seal_of(topic, data), data[-SEAL:]):
+                    self.refused += 1
+                    return
+                message = kind()
+                message.deserialize(data)
+                callback(message)
+
+        rospy.Subscriber(topic, rospy.AnyMsg, check, tcp_nodelay=True)
+
+    def send(self, publisher, name, message):
+        message.seal = bytes(SEAL)
+        message.seal = seal_of(self.place + name, serialized(message))
+        publisher.publish(message)
+
+    def on_case(self, message):
+        self.case = message.data
+        self.case_known.set()
+
+    def on_hello(self, greeting):
+        if self.cache is not None:
+            return  # a sign of life in a paused run
+        self.greeting = greeting
+        # This node can serve any case, so it repeats the hash; at START it checks the text by it.
+        self.send(self.hello, "hello", Hello(
+            protocol=ParticipantRequest.PROTOCOL, run=greeting.run, role=self.role,
+            node=rospy.get_name(), case_name=greeting.case_name,
+            case_sha256=greeting.case_sha256))
+
+    def on_request(self, request):
+        key = request.key
+        if (request.protocol != ParticipantRequest.PROTOCOL or self.greeting is None
+                or key.run != self.greeting.run):
+            self.refused += 1
+        elif key.phase == CouplingKey.ABORT:
+            self.answer(request, ParticipantReply())
+            self.over.set()
+        elif self.cache is None or order(key) > order(self.cache.key):
+            begin = time.monotonic()
+            reply = self.compute(request)
+            reply.wall_s = time.monotonic() - begin
+            self.answer(request, reply)
+            if not reply.error:
+                self.cache = reply
+        elif order(key) == order(self.cache.key):
+            self.send(self.replies, "reply", self.cache)  # asked again: the same answer
+        else:
+            self.refused += 1  # late
+
+    def answer(self, request, reply):
+        reply.protocol, reply.key = ParticipantRequest.PROTOCOL, request.key
+        self.send(self.replies, "reply", reply)
+
+    def compute(self, request):
+        try:
+            if request.key.phase == CouplingKey.START:
+                return self.solver.start(self.resolved_case(), request)
+            if request.key.phase == CouplingKey.ITERATE:
+                return self.solver.iterate(request)
+            return self.solver.commit(request)
+        except Exception as e:  # whatever it is, the person hears of it from the coordinator
+            return ParticipantReply(interface=request.interface,
+                                    error="%s: %s" % (type(e).__name__, e))
+
+    def resolved_case(self):
+        """The coordinator publishes it, latched, before it asks for anything."""
+        if not self.case_known.wait(30):
+            raise RuntimeError("no case on %s/case within 30 s" % NAMESPACE)
+        if hashlib.sha256(self.case.encode()).hexdigest() != self.greeting.case_sha256:
+            raise RuntimeError("the text on %s/case is not the case of the run" % NAMESPACE)
+        return yaml.safe_load(self.case)
+
+    def serve(self):
+        """Returns an exit code when the run is over: 1 when the coordinator was lost, 130 when
+        stopped by hand."""
+        try:
+            return self.wait_for_the_end()
+        except KeyboardInterrupt:
+            return 130
+
+    def wait_for_the_end(self, limit=600.0):
+        begin = time.monotonic()
+        while not self.over.wait(0.2) and not rospy.is_shutdown():
+            if self.replies.get_num_connections() == 0 and (
+                    self.cache is not None or time.monotonic() - begin > limit):
+                rospy.logerr("the coordinator is lost")
+                return 1
+        begin = time.monotonic()  # the coordinator closes its files first
+        while self.replies.get_num_connections() and time.monotonic() - begin < 60:
+            time.sleep(0.05)
+        return 0

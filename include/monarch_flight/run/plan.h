@@ -1,0 +1,39 @@
+#pragma once
+#include <string>
+
+#include "monarch_flight/run/case.h"
+
+namespace monarch_flight {
+
+/// What a Navier-Stokes run of a case means, known before it starts. SI.
+struct RunPlan {
+  int cells_x = 0, cells_y = 0, cells_z = 0;
+  long cells = 0, wing_faces = 0;
+  double chord = 0.0, span = 0.0;                      ///< mean chord; span [m]
+  double cells_per_chord = 0.0, cells_per_span = 0.0;  ///< over the wing
+  double in_plane = 0.0, first_height = 0.0;           ///< smallest spacings [m]
+  double stokes_layer = 0.0;     ///< sqrt(2 nu / omega) of the flapping; 0 without a period [m]
+  double cells_in_layer = 0.0;   ///< that it holds, counted from the wing
+  double reynolds = 0.0;         ///< of the peak tip speed and the mean chord
+  double courant_tip = 0.0, courant_body = 0.0;  ///< peak speeds of tip and root x dt / in_plane
+  double courant_flow = 0.0;     ///< expected of the flow round the wing: what the solver watches
+  double courant_limit = 0.0;
+  double memory = 0.0, memory_left = 0.0;        ///< needed; available on this machine [bytes]
+  int ranks = 1;
+  long steps = 0;
+  double evaluations = 0.0;                      ///< of the air in a step, expected
+  double setup_s = 0.0, step_s = 0.0;            ///< expected wall time [s]
+  double run_s() const { return setup_s + steps * step_s; }
+};
+
+/// Plans a case on `ranks` processes; calibrates the time by a few coarse steps (a fraction of a
+/// second). Precondition: c.fluid is Navier-Stokes.
+RunPlan planRun(const Case& c, int ranks);
+
+/// Throws InputError when the machine cannot hold the run (docs/case_files.md, grid).
+void requirePossible(const RunPlan& plan);
+
+/// Some lines for people.
+std::string describe(const RunPlan& plan);
+
+}  // namespace monarch_flight

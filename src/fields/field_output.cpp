@@ -1,0 +1,144 @@
+#include "monarch_flight/fields/field_output.h"
+
+#include <vtkXMLDataElement.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLStructuredGridWriter.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "fields/vtk_data.h"
+#include "monarch_flight/run/output_file.h"
+
+namespace monarch_flight {
+namespace {
+
+namespace fs = std::filesystem;
+
+void writeWhole(const std::string& path, const std::string& bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.finish();
+}
+
+/// What a VTK writer makes of a data set, as bytes.
+template <class Writer, class Data>
+std::string written(const Data& data, const std::string& path) {
+  auto writer = vtkSmartPointer<Writer>::New();
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToZLib();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0) throw OutputError(path + ": VTK could not make this file");
+  return writer->GetOutputString();
+}
+
+class FieldOutput : public StepSink {
+ public:
+  FieldOutput(const Case& c, const std::string& folder, StateVisitor* resumed)
+      : case_(c), folder_(folder), reference_(pressureReference(c)) {
+    if (resumed != nullptr && resumed->has("fields_count")) onCheckpoint(*resumed);
+  }
+
+  void onStep(const CommittedStep& step) override {
+    if (!step.flow) return;
+    makeFolder();
+    const Entry entry(step.step, step.t);
+    const std::string flow = folder_ + "/" + entry.flow, wing = folder_ + "/" + entry.wing;
+    writeWhole(flow, written<vtkXMLStructuredGridWriter>(flowGrid(case_, step), flow));
+    writeWhole(wing, written<vtkXMLPolyDataWriter>(wingSurface(case_, reference_, step), wing));
+    entries_.push_back(entry);
+    writeSeries();
+  }
+
+  /// The files of the run so far go.
+  void onReset() override {
+    for (const Entry& entry : entries_) {
+      fs::remove(folder_ + "/" + entry.flow);
+      fs::remove(folder_ + "/" + entry.wing);
+    }
+    if (!entries_.empty()) fs::remove(folder_ + "/fields.pvd");
+    entries_.clear();
+  }
+
+  /// The list of files; also the way back, for a run that goes on.
+  void onCheckpoint(StateVisitor& state) override {
+    std::size_t count = entries_.size();
+    state("fields_count", count);
+    Eigen::MatrixXd rows(2, count);
+    for (std::size_t i = 0; !state.loading() && i < count; ++i) {
+      rows(0, static_cast<Eigen::Index>(i)) = entries_[i].step;
+      rows(1, static_cast<Eigen::Index>(i)) = entries_[i].t;
+    }
+    state("fields_steps_and_times", rows);
+    for (std::size_t i = 0; state.loading() && i < count; ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      entries_.emplace_back(static_cast<std::uint32_t>(rows(0, column)), rows(1, column));
+    }
+  }
+
+  void onEnd(const std::string&) override {}
+
+ private:
+  struct Entry {
+    Entry(std::uint32_t step_in, double t_in) : step(step_in), t(t_in) {
+      char number[16];
+      std::snprintf(number, sizeof number, "%08u", step);
+      flow = std::string("flow_") + number + ".vts";
+      wing = std::string("wing_") + number + ".vtp";
+    }
+    std::uint32_t step;
+    double t;
+    std::string flow, wing;
+  };
+
+  void makeFolder() const {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) throw OutputError(folder_ + ": cannot be created (" + error.message() + ")");
+  }
+
+  /// fields.pvd: ParaView's own list of files with their times; part 0 the flow, part 1 the wings.
+  void writeSeries() const {
+    vtkNew<vtkXMLDataElement> file, collection;
+    file->SetName("VTKFile");
+    file->SetAttribute("type", "Collection");
+    file->SetAttribute("version", "0.1");
+    collection->SetName("Collection");
+    for (const Entry& entry : entries_) {
+      for (int part = 0; part < 2; ++part) {
+        vtkNew<vtkXMLDataElement> item;
+        item->SetName("DataSet");
+        char time[32];
+        std::snprintf(time, sizeof time, "%.17g", entry.t);
+        item->SetAttribute("timestep", time);
+        item->SetIntAttribute("part", part);
+        item->SetAttribute("name", part == 0 ? "flow" : "wings");
+        item->SetAttribute("file", (part == 0 ? entry.flow : entry.wing).c_str());
+        collection->AddNestedElement(item);
+      }
+    }
+    file->AddNestedElement(collection);
+    std::ostringstream text;
+    text << "<?xml version=\"1.0\"?>\n";
+    file->PrintXML(text, vtkIndent());
+    writeWhole(folder_ + "/fields.pvd", text.str());
+  }
+
+  const Case case_;
+  const std::string folder_;
+  const PressureReference reference_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+std::unique_ptr<StepSink> makeFieldOutput(const Case& c, const std::string& folder,
+                                          StateVisitor* resumed) {
+  return std::make_unique<FieldOutput>(c, folder, resumed);
+}
+
+}  // namespace monarch_flight

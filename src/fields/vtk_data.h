@@ -1,0 +1,20 @@
+#pragma once
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStructuredGrid.h>
+
+#include "monarch_flight/coupling/settings.h"
+#include "monarch_flight/run/case.h"
+#include "monarch_flight/run/pressure_reference.h"
+
+namespace monarch_flight {
+
+/// The grid of step.flow with its fields, world axes. Precondition: step.flow is not null.
+vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const CommittedStep& step);
+
+/// Right wing and, unless a bare wing, its mirror image: a quadrangle a face, world axes; its front
+/// side (anticlockwise) is the ventral one.
+vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const PressureReference& reference,
+                                         const CommittedStep& step);
+
+}  // namespace monarch_flight

@@ -1,0 +1,178 @@
+#include "monarch_flight/run/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+#include "monarch_flight/fluid/flow_cost.h"
+#include "monarch_flight/fluid/grid.h"
+#include "monarch_flight/math/errors.h"
+#include "run/case_parts.h"
+
+namespace monarch_flight {
+namespace {
+
+// The air flows faster round the wing's edges than the tip moves: largest Courant number of a
+// flight over that of the tip's speed, measured (docs/performance.md).
+constexpr double kFlowByTip = 1.6;
+// Evaluations of the air in a step with free coordinates (docs/coupling.md, `added_mass`).
+constexpr double kEvaluationsFree = 2.1;
+
+/// Memory that this machine, or the group that the process is in, can still give [bytes].
+double availableMemory() {
+  double left = 0.0;
+  std::ifstream info("/proc/meminfo");
+  for (std::string line; std::getline(info, line);) {
+    std::istringstream words(line);
+    std::string key;
+    double kilobytes = 0.0;
+    if (words >> key >> kilobytes && key == "MemAvailable:") left = 1024.0 * kilobytes;
+  }
+  double limit = 0.0, used = 0.0;
+  std::ifstream group("/sys/fs/cgroup/memory.max"), now("/sys/fs/cgroup/memory.current");
+  if (group >> limit && now >> used) left = std::min(left, std::max(0.0, limit - used));
+  return left;
+}
+
+/// Peak speed of the wing's root against the wind over the prescribed run [m/s].
+double peakRootSpeed(const Case& c) {
+  const std::uint32_t stride = std::max<std::uint32_t>(1, c.time.steps / 2000);
+  double peak = 0.0;
+  for (std::uint32_t step = 0; step <= c.time.steps; step += stride) {
+    const PrescribedState state = c.motion->at(c.time.time(step));
+    const WingMotion wing = rightWingMotion(c.insect, state.body, state.angles);
+    peak = std::max(peak, (wing.v_W - wing.R_IW.transpose() * c.air.wind_I).norm());
+  }
+  return peak;
+}
+
+/// Cells above the wing's plane within `height`, the last one in part.
+double cellsWithin(const Grid& grid, double height) {
+  double cells = 0.0;
+  for (int k = grid.k_wing; k < grid.z.n() && grid.z.face[k] < height; ++k) {
+    cells += std::min(1.0, (height - grid.z.face[k]) / grid.z.width[k]);
+  }
+  return cells;
+}
+
+void planGrid(const Case& c, const Grid& grid, RunPlan& plan) {
+  const Planform& wing = c.insect.planform;
+  plan.cells_x = grid.x.n();
+  plan.cells_y = grid.y.n();
+  plan.cells_z = grid.z.n();
+  plan.cells = grid.cells();
+  plan.wing_faces = std::count(grid.wing.begin(), grid.wing.end(), 1);
+  plan.chord = wing.meanChord();
+  plan.span = wing.span();
+  const double dx = *std::min_element(grid.x.width.begin(), grid.x.width.end());
+  const double dy = *std::min_element(grid.y.width.begin(), grid.y.width.end());
+  plan.cells_per_chord = plan.chord / dx;
+  plan.cells_per_span = plan.span / dy;
+  plan.in_plane = std::min(dx, dy);
+  plan.first_height = grid.z.width[grid.k_wing];
+  if (c.time.period > 0.0) {
+    plan.stokes_layer = std::sqrt(c.air.mu / c.air.rho * c.time.period / M_PI);
+    plan.cells_in_layer = cellsWithin(grid, plan.stokes_layer);
+  }
+}
+
+void planSpeeds(const Case& c, RunPlan& plan) {
+  const double tip = peakTipSpeed(c), per_speed = c.time.dt / plan.in_plane;
+  plan.reynolds = c.air.rho * tip * plan.chord / c.air.mu;
+  plan.courant_tip = tip * per_speed;
+  plan.courant_body = peakRootSpeed(c) * per_speed;
+  plan.courant_flow = kFlowByTip * plan.courant_tip;
+  plan.courant_limit = c.grid.courant_limit;
+}
+
+void planTime(const Case& c, long unknowns, RunPlan& plan) {
+  const FlowCost cost = measureFlowCost(c.insect.planform, c.air);
+  const bool prescribed = c.free.count() == 0;
+  plan.steps = c.time.steps;
+  plan.evaluations = prescribed ? 1.0 : kEvaluationsFree;
+  const double cells = static_cast<double>(plan.cells);
+  plan.setup_s = capacitanceSetup(unknowns);
+  plan.step_s = parallelShare(plan.ranks) * cells *
+                    (cost.first + (plan.evaluations - 1) * cost.repeated) +
+                plan.evaluations * capacitanceEvaluation(unknowns);
+}
+
+std::string bytesText(double bytes) {
+  std::ostringstream text;
+  text << std::setprecision(3);
+  bytes < 1e9 ? text << bytes / 1e6 << " MB" : text << bytes / 1e9 << " GB";
+  return text.str();
+}
+
+std::string timeText(double seconds) {
+  std::ostringstream text;
+  text << std::setprecision(2);
+  if (seconds < 60) {
+    text << seconds << " s";
+  } else if (seconds < 5400) {
+    text << std::round(seconds / 6) / 10 << " min";
+  } else {
+    text << std::setprecision(3) << seconds / 3600 << " h";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+RunPlan planRun(const Case& c, int ranks) {
+  const Grid grid = makeGrid(c.insect.planform, c.grid);
+  RunPlan plan;
+  plan.ranks = ranks;
+  planGrid(c, grid, plan);
+  planSpeeds(c, plan);
+  plan.memory = flowMemory(grid, ranks);
+  plan.memory_left = availableMemory();
+  planTime(c, capacitanceUnknowns(grid), plan);
+  return plan;
+}
+
+void requirePossible(const RunPlan& plan) {
+  std::vector<std::string> faults;
+  if (plan.memory > plan.memory_left) {
+    faults.push_back("grid: " + std::to_string(plan.cells) + " cells and " +
+                     std::to_string(plan.wing_faces) + " faces of the wing need " +
+                     bytesText(plan.memory) + " of memory, must be <= " +
+                     bytesText(plan.memory_left) +
+                     ", what this machine has left; lower grid/cells_per_chord or "
+                     "grid/far_field, or use a larger machine");
+  }
+  if (plan.cells_z < 2 * plan.ranks) {
+    faults.push_back("ranks = " + std::to_string(plan.ranks) + ": must be at most " +
+                     std::to_string(plan.cells_z / 2) +
+                     ", half the planes of the grid normal to the wing; use fewer processes or a "
+                     "finer grid");
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+std::string describe(const RunPlan& p) {
+  std::ostringstream text;
+  text << std::setprecision(3);
+  text << "grid: " << p.cells_x << " x " << p.cells_y << " x " << p.cells_z << " = "
+       << p.cells / 1e6 << " million cells, " << p.wing_faces << " faces of the wing\n"
+       << "resolution: " << p.cells_per_chord << " cells a mean chord of " << p.chord << " m, "
+       << p.cells_per_span << " along the span; smallest spacing " << p.in_plane
+       << " m in the wing's plane, " << p.first_height << " m above it\n";
+  text << "Reynolds number " << p.reynolds << " (tip speed, mean chord)";
+  if (p.stokes_layer > 0.0) {
+    text << "; Stokes layer sqrt(2 nu / omega) " << p.stokes_layer << " m, " << p.cells_in_layer
+         << " cells";
+  }
+  text << "\nCourant number: wing tip " << p.courant_tip << ", wing root " << p.courant_body
+       << "; expected in the flow " << p.courant_flow << ", limit " << p.courant_limit;
+  if (p.courant_flow > p.courant_limit) text << " - this run may end on it; take more steps a flap";
+  text << "\nmemory: " << bytesText(p.memory) << " of " << bytesText(p.memory_left) << " left\n"
+       << "time: set-up " << timeText(p.setup_s) << ", " << p.steps << " steps of "
+       << timeText(p.step_s) << " (" << p.evaluations << " evaluations of the air, " << p.ranks
+       << (p.ranks == 1 ? " process): " : " processes): ") << timeText(p.run_s()) << "\n";
+  return text.str();
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,198 @@
+// Files of the flow, read back by VTK's own readers against what the solver has.
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStructuredGrid.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLStructuredGridReader.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "monarch_flight/fields/field_output.h"
+#include "monarch_flight/run/federation.h"
+#include "monarch_flight/run/pressure_reference.h"
+
+namespace monarch_flight {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+/// Keeps the steps that carry a flow.
+class Keeper : public StepSink {
+ public:
+  void onStep(const CommittedStep& step) override {
+    if (step.flow) steps.push_back(step);
+  }
+  void onReset() override { steps.clear(); }
+  void onEnd(const std::string&) override {}
+  std::vector<CommittedStep> steps;
+};
+
+Vector3d world(const Vector3d& ned) { return {ned.y(), ned.x(), -ned.z()}; }
+
+Vector3d tuple(vtkDataArray* a, vtkIdType i) { return Vector3d(a->GetTuple3(i)); }
+
+/// One flight for all tests: a monarch in wind, two files in four steps.
+class Fields : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder() = (fs::temp_directory_path() / ("monarch_fields_" + std::to_string(getpid()))).string();
+    Case& c = theCase();
+    c = loadCase("tethered_fwuav", {{"flaps", "0.04"}, {"steps_per_flap", "100"},
+                                    {"record", "false"}, {"fields_every", "2"}}, CONFIG_DIR);
+    c.grid.cells_per_chord = 6;
+    c.grid.far_field = 3;
+    c.air.wind_I = {0.3, -0.2, 0.1};
+    InProcessFederation federation(c);
+    const auto files = makeFieldOutput(c, folder());
+    const RunResult result = federation.run(1, {&keeper(), files.get()}, StopFlag(false));
+    ASSERT_TRUE(result.complete) << result.failure;
+    ASSERT_EQ(2u, keeper().steps.size());
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder()); }
+
+  static std::string& folder() { static std::string f; return f; }
+  static Case& theCase() { static Case c; return c; }
+  static Keeper& keeper() { static Keeper k; return k; }
+  static const CommittedStep& last() { return keeper().steps.back(); }
+  static WingMotion motion() {
+    return rightWingMotion(theCase().insect, last().interface.body, last().angles);
+  }
+
+  static vtkSmartPointer<vtkStructuredGrid> grid() {
+    vtkNew<vtkXMLStructuredGridReader> reader;
+    reader->SetFileName((folder() + "/flow_00000004.vts").c_str());
+    reader->Update();
+    return reader->GetOutput();
+  }
+  static vtkSmartPointer<vtkPolyData> wings() {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName((folder() + "/wing_00000004.vtp").c_str());
+    reader->Update();
+    return reader->GetOutput();
+  }
+};
+
+TEST_F(Fields, TheGridStandsInTheWorld) {
+  const auto g = grid();
+  const FlowField& flow = *last().flow;
+  int n[3];
+  g->GetDimensions(n);
+  EXPECT_EQ(static_cast<int>(flow.x.size()), n[0]);
+  EXPECT_EQ(static_cast<int>(flow.y.size()), n[1]);
+  EXPECT_EQ(static_cast<int>(flow.z.size()), n[2]);
+  const WingMotion m = motion();
+  for (const auto& [i, j, k] : {std::array<int, 3>{0, 0, 0}, {5, 7, 3}, {n[0] - 1, 0, n[2] - 1}}) {
+    const Vector3d r(flow.x[i], flow.y[j], flow.z[k]);
+    const Vector3d expected = world(m.r_I + m.R_IW * r);
+    const Vector3d point(g->GetPoint((static_cast<vtkIdType>(k) * n[1] + j) * n[0] + i));
+    EXPECT_LT((point - expected).norm(), 1e-14);
+  }
+  EXPECT_EQ(last().t, g->GetFieldData()->GetArray("TimeValue")->GetTuple1(0));
+}
+
+TEST_F(Fields, TheValuesAreTheSolversTurnedIntoTheWorld) {
+  const auto g = grid();
+  const FlowField& flow = *last().flow;
+  ASSERT_EQ(static_cast<vtkIdType>(flow.cells()), g->GetNumberOfCells());
+  const Eigen::Matrix3d R = motion().R_IW;
+  vtkCellData* data = g->GetCellData();
+  double fastest = 0;
+  for (vtkIdType i = 0; i < g->GetNumberOfCells(); ++i) {
+    EXPECT_EQ(flow.pressure[i], float(data->GetArray("pressure")->GetTuple1(i)));
+    EXPECT_EQ(flow.q[i], float(data->GetArray("Q")->GetTuple1(i)));
+    const Vector3d v = Eigen::Map<const Eigen::Vector3f>(&flow.velocity[3 * i]).cast<double>();
+    const Vector3d w = Eigen::Map<const Eigen::Vector3f>(&flow.vorticity[3 * i]).cast<double>();
+    fastest = std::max(fastest, v.norm());
+    const Vector3d expected = world(R * v + theCase().air.wind_I);
+    EXPECT_LT((tuple(data->GetArray("velocity"), i) - expected).norm(), 1e-6);
+    EXPECT_LT((tuple(data->GetArray("vorticity"), i) - world(R * w)).norm(), 1e-6 * (1 + w.norm()));
+    EXPECT_EQ(flow.vorticity[3 * i + 1],
+              float(data->GetArray("spanwise_vorticity")->GetTuple1(i)));
+  }
+  EXPECT_GT(fastest, 0.5);  // the wing has moved the air
+}
+
+TEST_F(Fields, TheWingsCarryTheLoads) {
+  const auto s = wings();
+  const vtkIdType faces = static_cast<vtkIdType>(last().flow->wing.size());
+  ASSERT_EQ(2 * faces, s->GetNumberOfCells());
+  vtkCellData* data = s->GetCellData();
+  Vector3d pressure = Vector3d::Zero(), friction = Vector3d::Zero(), left = Vector3d::Zero();
+  for (vtkIdType i = 0; i < 2 * faces; ++i) {
+    vtkPoints* p = s->GetCell(i)->GetPoints();
+    const Vector3d a(p->GetPoint(0)), b(p->GetPoint(1)), d(p->GetPoint(3));
+    const double area = (b - a).cross(d - a).norm();
+    const Vector3d push = area * data->GetArray("pressure_jump")->GetTuple1(i) *
+                          tuple(data->GetArray("normal"), i);
+    if (i >= faces) {
+      left += push;
+      continue;
+    }
+    pressure += push;
+    friction += area * (tuple(data->GetArray("friction_dorsal"), i) +
+                        tuple(data->GetArray("friction_ventral"), i));
+  }
+  const Eigen::Matrix3d R = motion().R_IW;
+  const Vector3d expected = world(R * last().loads.force_pressure);
+  EXPECT_LT((pressure - expected).norm(), 1e-5 * expected.norm());
+  EXPECT_LT((left - Vector3d(-expected.x(), expected.y(), expected.z())).norm(),
+            1e-5 * expected.norm());  // mirrored: the body's plane of symmetry is east = 0
+  // The part along the wing's normal acts at the rim and is not of the faces.
+  const Vector3d along(last().loads.force_friction.x(), last().loads.force_friction.y(), 0);
+  EXPECT_LT((friction - world(R * along)).norm(), 1e-5 * along.norm());
+}
+
+TEST_F(Fields, CpIsPressureOverTheDynamicOne) {
+  const auto s = wings();
+  const double dynamic = pressureReference(theCase()).dynamic;
+  for (const char* side : {"dorsal", "ventral", "jump"}) {
+    vtkDataArray* p = s->GetCellData()->GetArray((std::string("pressure_") + side).c_str());
+    vtkDataArray* cp = s->GetCellData()->GetArray((std::string("Cp_") + side).c_str());
+    EXPECT_NEAR(cp->GetTuple1(7), p->GetTuple1(7) / dynamic, 1e-6 * std::abs(cp->GetTuple1(7)));
+  }
+}
+
+TEST_F(Fields, TheSeriesNamesEveryFileWithItsTime) {
+  std::ifstream file(folder() + "/fields.pvd");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::vector<std::string> found;
+  const std::string all = text.str();
+  for (const char* name : {"flow_00000002.vts", "wing_00000002.vtp", "flow_00000004.vts",
+                           "wing_00000004.vtp"}) {
+    EXPECT_NE(std::string::npos, all.find(name)) << all;
+    EXPECT_TRUE(fs::exists(folder() + "/" + name));
+  }
+  char time[64];
+  std::snprintf(time, sizeof time, "timestep=\"%.17g\"", last().t);
+  EXPECT_NE(std::string::npos, all.find(time)) << all;
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(folder())) files += entry.is_regular_file();
+  EXPECT_EQ(5, files);  // nothing half-written is left
+}
+
+TEST_F(Fields, AResetTakesTheFilesBack) {
+  const std::string other = folder() + "/other";
+  const auto files = makeFieldOutput(theCase(), other);
+  files->onStep(last());
+  EXPECT_TRUE(fs::exists(other + "/flow_00000004.vts"));
+  files->onReset();
+  EXPECT_TRUE(fs::is_empty(other));
+}
+
+TEST_F(Fields, AFolderThatCannotBeMadeEndsTheRun) {
+  const auto files = makeFieldOutput(theCase(), "/proc/fields");
+  EXPECT_THROW(files->onStep(last()), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace monarch_flight

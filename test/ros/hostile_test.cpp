@@ -1,0 +1,182 @@
+// Broken, stale, foreign, repeated and forged messages on every topic of the protocol while the
+// real nodes fly: refused, counted, and without a trace in the flight. MONARCH_HOSTILE_MESSAGES is
+// the number on each topic (scripts/hostile).
+#include <cstdio>
+#include <set>
+
+#include "ros/attacker.h"
+#include "ros/nodes_fixture.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr char kToken[] = "token of the tests";
+
+unsigned messagesPerTopic() {
+  const char* given = std::getenv("MONARCH_HOSTILE_MESSAGES");
+  return given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 300;
+}
+
+/// All twelve topics.
+struct Attackers {
+  explicit Attackers(ros::NodeHandle& node) {
+    unsigned seed = 1;
+    const Token token(kToken);
+    for (const char* role : {"fluid", "flight", "wing"}) {
+      const std::string place = std::string("/monarch_flight/") + role + "/";
+      greetings.push_back(make<Hello>(node, place + "coordinator_hello", token, seed));
+      greetings.push_back(make<Hello>(node, place + "hello", token, seed));
+      requests.push_back(make<ParticipantRequest>(node, place + "request", token, seed));
+      replies.push_back(make<ParticipantReply>(node, place + "reply", token, seed));
+    }
+  }
+  template <class Message>
+  static std::unique_ptr<Attacker<Message>> make(ros::NodeHandle& node, const std::string& topic,
+                                                 const Token& token, unsigned& seed) {
+    return std::make_unique<Attacker<Message>>(node, topic, token, seed++);
+  }
+  template <class Action>
+  void each(Action action) {
+    for (auto& a : greetings) action(*a);
+    for (auto& a : requests) action(*a);
+    for (auto& a : replies) action(*a);
+  }
+  bool ready() {
+    bool all = true;
+    each([&all](const auto& a) { all = all && a.ready(); });
+    return all;
+  }
+  std::vector<std::unique_ptr<Attacker<Hello>>> greetings;
+  std::vector<std::unique_ptr<Attacker<ParticipantRequest>>> requests;
+  std::vector<std::unique_ptr<Attacker<ParticipantReply>>> replies;
+};
+
+TEST_F(Nodes, HostileMessagesLeaveNoTraceInTheFlight) {
+  const unsigned messages = messagesPerTopic();
+  const double flaps = 4.0 + 0.012 * messages;  // long enough for all of them
+  ros::param::set("/monarch_flight/flaps", flaps);
+  ros::param::set("/monarch_flight/record", false);
+  startAll();
+  ros::NodeHandle node;
+  Attackers attackers(node);
+  const ros::WallTime limit = ros::WallTime::now() + ros::WallDuration(20.0);
+  while (!attackers.ready() && ros::WallTime::now() < limit) {
+    ros::spinOnce();
+    ros::WallDuration(0.01).sleep();
+  }
+  ASSERT_TRUE(attackers.ready());
+  Sent sent;
+  for (unsigned i = 0; i < messages; ++i) {
+    attackers.each([&sent](auto& a) { a.send(sent); });
+    ros::spinOnce();
+    ros::WallDuration(0.002).sleep();
+  }
+  ASSERT_TRUE(coordinator->running()) << "the flight was over before the attack\n"
+                                      << coordinator->output();
+  EXPECT_EQ(0, coordinator->wait(150.0)) << coordinator->output();
+  for (Process* solver : {fluid.get(), flight.get(), wing.get()}) {
+    EXPECT_EQ(0, solver->wait(5.0)) << solver->output();
+  }
+  Process alone(std::string(NODE_DIR) + "/fly_in_process",
+                {"case:=climb", "fluid:=quasi_steady", "flaps:=" + std::to_string(flaps),
+                 "record:=false", "out:=" + (folder / "alone")},
+                folder / "alone.log");
+  EXPECT_EQ(0, alone.wait(60.0)) << alone.output();
+  const nlohmann::json attacked = summary(), undisturbed = summary("alone");
+  const nlohmann::json& ignored = attacked["ignored_messages"];
+  std::printf("sent: %lu forged, %lu foreign, %lu malformed, %lu old, %lu early\nignored: %s\n",
+              sent.forged, sent.foreign, sent.malformed, sent.replayed, sent.early,
+              ignored.dump().c_str());
+  EXPECT_EQ("complete", attacked["status"]);
+  EXPECT_EQ(undisturbed["state_sha256"], attacked["state_sha256"]);
+  EXPECT_EQ(12u * messages, sent.all());
+  EXPECT_EQ(sent.forged, ignored["forged"]);
+  EXPECT_EQ(sent.foreign, ignored["foreign"]);
+  EXPECT_EQ(sent.malformed, ignored["malformed"]);
+  const std::uint64_t old =
+      ignored["late"].get<std::uint64_t>() + ignored["repeated"].get<std::uint64_t>();
+  EXPECT_GE(old, sent.replayed + sent.early);
+}
+
+TEST_F(Nodes, AStrangerCannotPlayTheCoordinator) {
+  ros::NodeHandle node;
+  Hello stranger;
+  stranger.protocol = ParticipantRequest::PROTOCOL;
+  stranger.run = 77;
+  stranger.role = "wing";
+  stranger.node = "/stranger";
+  Token("guessed").seal("/monarch_flight/wing/coordinator_hello", stranger);
+  const ros::Publisher hello =
+      node.advertise<Hello>("/monarch_flight/wing/coordinator_hello", 1, true);
+  hello.publish(stranger);
+  wing = start("wing");
+  for (int i = 0; i < 300 && hello.getNumSubscribers() == 0; ++i) ros::WallDuration(0.02).sleep();
+  ros::WallDuration(0.5).sleep();
+  EXPECT_TRUE(wing->running()) << wing->output();  // it would have refused such a coordinator
+  coordinator = start("coordinator");
+  fluid = start("fluid");
+  flight = start("flight");
+  EXPECT_EQ(0, coordinator->wait(40.0)) << coordinator->output();
+  EXPECT_EQ(1u, summary()["ignored_messages"]["forged"]);
+}
+
+TEST_F(Nodes, WithoutATokenAPersonIsWarned) {
+  unsetenv("MONARCH_FLIGHT_TOKEN");
+  startAll();
+  EXPECT_EQ(0, coordinator->wait(40.0)) << coordinator->output();
+  EXPECT_TRUE(contains(coordinator->output(), "MONARCH_FLIGHT_TOKEN is not set"));
+}
+
+/// What a process has open, as "socket:[inode]".
+std::set<std::string> openFiles(pid_t pid) {
+  std::set<std::string> open;
+  const std::string folder = "/proc/" + std::to_string(pid) + "/fd/";
+  for (int fd = 0; fd < 100; ++fd) {
+    char target[100] = {};
+    if (readlink((folder + std::to_string(fd)).c_str(), target, sizeof target - 1) > 0) {
+      open.emplace(target);
+    }
+  }
+  return open;
+}
+
+/// Addresses at which a child listens, as /proc/net/tcp writes them (hexadecimal), without the
+/// sockets that it has inherited from this process.
+std::vector<std::string> listeningAddresses(pid_t pid) {
+  const std::set<std::string> its = openFiles(pid), mine = openFiles(getpid());
+  std::vector<std::string> addresses;
+  std::ifstream table("/proc/net/tcp");
+  std::string line;
+  std::getline(table, line);
+  while (std::getline(table, line)) {
+    std::istringstream words(line);
+    std::string number, local, remote, state, skip, inode;
+    words >> number >> local >> remote >> state >> skip >> skip >> skip >> skip >> skip >> inode;
+    const std::string socket = "socket:[" + inode + "]";
+    const bool own = its.count(socket) > 0 && mine.count(socket) == 0;
+    if (state == "0A" && own) addresses.push_back(local.substr(0, 8));
+  }
+  return addresses;
+}
+
+TEST_F(Nodes, ListenOnTheLoopbackAddressOnly) {
+  unsetenv("ROS_HOSTNAME");  // with_master.py has set it
+  unsetenv("ROS_IP");
+  wing = start("wing");
+  setenv("ROS_HOSTNAME", "localhost", 1);
+  ros::WallDuration(2.0).sleep();
+  ASSERT_TRUE(wing->running()) << wing->output();
+  const std::vector<std::string> addresses = listeningAddresses(wing->pid());
+  EXPECT_GE(addresses.size(), 2u);  // messages and XML-RPC
+  for (const std::string& address : addresses) EXPECT_EQ("0100007F", address);
+}
+
+}  // namespace
+}  // namespace monarch_flight
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "hostile_test");
+  ros::NodeHandle keep;
+  return RUN_ALL_TESTS();
+}
