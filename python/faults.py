@@ -16,7 +16,7 @@ WATCHDOG = 4.0  # s
 AIR = {"quasi_steady": ("fluid:=quasi_steady", "flaps:=0.5", "steps_per_flap:=400"),
        "navier_stokes": ("fluid:=navier_stokes", "grid:=preview", "flaps:=0.25", "steps_per_flap:=300", "ranks:=2")}
 STARTED = r"process\[(?:monarch_flight/)?([a-z_]+?)(?:-\d+)?\]: started with pid \[(\d+)\]"
-FAKETIME = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1"
+FAKETIME = "/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1"
 
 
 class Fault:
@@ -165,7 +165,7 @@ def clock(seconds):
 NODES = ("fluid", "flight", "wing", "coordinator")
 FAULTS = (
     [Fault("SIGKILL " + node, sent(node, signal.SIGKILL), "node monarch_flight/%s died" % node) for node in NODES]
-    + [Fault("SIGKILL master", sent("master", signal.SIGKILL), "master"),
+    + [Fault("SIGKILL master", sent("master", signal.SIGKILL), "[master] process has died"),
        Fault("SIGKILL mpirun", sent("fluid", signal.SIGKILL), "node monarch_flight/fluid died", air="navier_stokes"),
        Fault("SIGINT run", lambda flight: flight.process.send_signal(signal.SIGINT), "stopped by hand")]
     + [Fault("SIGSTOP %s, 1 s" % node, stopped(node, 1.0), None) for node in NODES]

@@ -71,11 +71,13 @@ std::uint64_t estimatedOutputBytes(const Case& c) {
   constexpr std::uint64_t kRow = 1100, kIterationRows = 10 * 180, kSmallFiles = 100000;
   constexpr std::uint64_t kBagStep = 20000, kSurface = 400000, kVortices = 800000;
   constexpr std::uint64_t kFieldCell = 64;  // nine floats and a point of three doubles, packed
+  constexpr std::uint64_t kCheckpoints = 3, kStateCell = 72;  // seven fields with their rims
   const std::uint64_t steps = c.time.steps + std::uint64_t{1};
   std::uint64_t bytes = kSmallFiles + c.resolved_yaml.size() + steps * (kRow + kIterationRows);
-  if (c.fluid == FluidKind::kNavierStokes && c.output.fields_every > 0) {
-    const long cells = makeGrid(c.insect.planform, c.grid).cells();
-    bytes += steps / c.output.fields_every * static_cast<std::uint64_t>(cells) * kFieldCell;
+  if (c.fluid == FluidKind::kNavierStokes) {
+    const auto cells = static_cast<std::uint64_t>(makeGrid(c.insect.planform, c.grid).cells());
+    if (c.output.fields_every > 0) bytes += steps / c.output.fields_every * cells * kFieldCell;
+    if (c.output.checkpoint_every > 0) bytes += kCheckpoints * cells * kStateCell;
   }
   if (!c.output.record) return bytes;
   bytes += steps * kBagStep;

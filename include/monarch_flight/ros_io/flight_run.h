@@ -31,8 +31,8 @@ class FlightRun {
   void openBag(std::vector<MessageOutput*>& listeners);
 
   const Case& case_;
-  std::unique_ptr<StepSink> fields_;  // before the folder: a build without VTK refuses
   Checkpoints checkpoints_;
+  std::unique_ptr<StepSink> fields_;  // before the folder: a build without VTK refuses
   RunOutputs files_;
   std::unique_ptr<BagOutput> bag_;
   std::unique_ptr<MessageSink> messages_;
