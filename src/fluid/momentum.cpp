@@ -1,5 +1,5 @@
-// Setting up, right side and the order of things; coefficients in momentum_coefficients.cpp, the
-// factors are solved in momentum_plane.cpp (x, y) and momentum_normal.cpp (z).
+// Setting up, coefficients and the order of things; the right side is in momentum_right_side.cpp,
+// the factors are solved in momentum_plane.cpp (x, y) and momentum_normal.cpp (z).
 #include "fluid/momentum.h"
 
 #include <algorithm>
@@ -9,51 +9,6 @@
 #include "fluid/momentum_stencil.h"
 
 namespace monarch_flight {
-namespace {
-
-constexpr double kDissipation = 1.0 / 32;  ///< fourth difference, at Courant numbers of 1 and above
-
-/// Off-diagonals of the three factors along one row.
-struct Offs {
-  const double *lx, *ux, *ly, *uy, *lz, *uz;
-};
-
-/// d -= sum of off * (neighbour - v), for i0 <= i <= i1.
-void subtractFluxes(const Offs& o, const double* __restrict v, std::ptrdiff_t sy, std::ptrdiff_t sz,
-                    int i0, int i1, double* __restrict d) {
-  const double* __restrict lx = o.lx;
-  const double* __restrict ux = o.ux;
-  const double* __restrict ly = o.ly;
-  const double* __restrict uy = o.uy;
-  const double* __restrict lz = o.lz;
-  const double* __restrict uz = o.uz;
-  const double* __restrict south = v - sy;
-  const double* __restrict north = v + sy;
-  const double* __restrict down = v - sz;
-  const double* __restrict up = v + sz;
-  for (int i = i0; i <= i1; ++i) {
-    d[i] -= lx[i] * (v[i - 1] - v[i]) + ux[i] * (v[i + 1] - v[i]) + ly[i] * (south[i] - v[i]) +
-            uy[i] * (north[i] - v[i]) + lz[i] * (down[i] - v[i]) + uz[i] * (up[i] - v[i]);
-  }
-}
-
-/// d -= min(scale |f(i) + f(i + o)|, share) * fourth difference of v with stride s, scale(i) = x[i]
-/// * scale_row.
-void subtractFourth(const double* __restrict v, std::ptrdiff_t s, const double* __restrict f,
-                    const double* __restrict f_before, const double* __restrict x, double scale_row,
-                    double share, int i0, int i1, double* __restrict d) {
-  const double* __restrict b1 = v - s;
-  const double* __restrict b2 = v - 2 * s;
-  const double* __restrict a1 = v + s;
-  const double* __restrict a2 = v + 2 * s;
-  for (int i = i0; i <= i1; ++i) {
-    const double factor = scale_row * x[i] * std::abs(f[i] + f_before[i]);
-    d[i] -= std::min(share, factor) * (a2[i] + b2[i] - 4 * (a1[i] + b1[i]) + 6 * v[i]);
-  }
-}
-
-}  // namespace
-
 Momentum::Momentum(const Grid& grid, const Layout& layout, const Slab& slab)
     : grid_(grid), layout_(layout), slab_(slab), delta_(layout) {
   const Axis* axes[3] = {&grid.x, &grid.y, &grid.z};
@@ -84,13 +39,9 @@ Momentum::Momentum(const Grid& grid, const Layout& layout, const Slab& slab)
   }
   wing_plane_.assign(layout.sz, 0.0);
   const std::size_t lines = std::max({layout.nx, layout.ny, layout.nz}) + 8;
-  for (Array* row : {&lower_, &upper_, &wall_diagonal_, &wall_side_, &zero_, &x_above_, &x_below_,
-                     &x_central_[0], &x_central_[1], &y_central_[0], &y_central_[1]})
+  for (Array* row : {&lower_, &upper_, &wall_diagonal_, &wall_side_, &zero_, &x_above_, &x_below_})
     row->assign(layout.sy, 0.0);
-  for (YFaces* faces : {&y_central_faces_, &y_factor_faces_}) {
-    faces->above.assign(2 * layout.sy, 0.0);
-    faces->below.assign(2 * layout.sy, 0.0);
-  }
+  for (Array* rows : {&y_above_, &y_below_}) rows->assign(2 * layout.sy, 0.0);
   for (Array* block : {&x_lower_, &x_upper_, &y_lower_, &y_upper_, &lane_lower_, &lane_upper_,
                        &lane_gamma_, &lane_side_})
     block->assign(kLines * layout.sy, 0.0);
@@ -111,6 +62,80 @@ double Momentum::position(int component, int direction, int index) const {
   return component == direction ? axis.face[index] : axis.centre[index];
 }
 
+/// Stencils of the lower faces, along y or z, of the points of row (j, k).
+void Momentum::rowFaces(const Velocity& c, int component, int direction, int j, int k,
+                        double* __restrict above, double* __restrict below) const {
+  const std::ptrdiff_t o = -layout_.stride(component == direction ? direction : component);
+  const double* __restrict f = c.c[direction].data() + layout_.at(0, j, k);
+  const double inv_dist = metric_[component][direction].inverse_distance[direction == 1 ? j : k];
+  const FaceStencil stencil(step_);
+  for (int i = first(component, 0), end = last(component, 0); i <= end; ++i)
+    stencil(0.5 * (f[i] + f[i + o]), inv_dist, above[i], below[i]);
+}
+
+void Momentum::coefficientsX(const Velocity& c, int component, int j, int k, Row row) {
+  const std::ptrdiff_t o = -layout_.stride(component);
+  const double* __restrict f = c.c[0].data() + layout_.at(0, j, k);
+  const double* __restrict inv_dist = metric_[component][0].inverse_distance.data();
+  const double* __restrict iw = metric_[component][0].inverse_width.data();
+  double* __restrict above = x_above_.data();
+  double* __restrict below = x_below_.data();
+  double* __restrict lower = row.lower;
+  double* __restrict upper = row.upper;
+  const int i0 = first(component, 0), i1 = last(component, 0);
+  const FaceStencil stencil(step_);
+  for (int i = i0; i <= i1 + 1; ++i)
+    stencil(0.5 * (f[i] + f[i + o]), inv_dist[i], above[i], below[i]);
+  for (int i = i0; i <= i1; ++i) {
+    lower[i] = -iw[i] * above[i];
+    upper[i] = iw[i] * below[i + 1];
+  }
+}
+
+/// Rows of a plane come in ascending order: the upper faces of one are the lower faces of the next.
+void Momentum::coefficientsY(const Velocity& c, int component, int j, int k, Row row) {
+  const std::ptrdiff_t here = (j % 2) * layout_.sy, next = layout_.sy - here;
+  double* above_faces = y_above_.data();
+  double* below_faces = y_below_.data();
+  if (j == first(component, 1))
+    rowFaces(c, component, 1, j, k, above_faces + here, below_faces + here);
+  rowFaces(c, component, 1, j + 1, k, above_faces + next, below_faces + next);
+  const double* __restrict above = above_faces + here;
+  const double* __restrict below = below_faces + next;
+  double* __restrict lower = row.lower;
+  double* __restrict upper = row.upper;
+  const double iw = metric_[component][1].inverse_width[j];
+  for (int i = first(component, 0), end = last(component, 0); i <= end; ++i) {
+    lower[i] = -iw * above[i];
+    upper[i] = iw * below[i];
+  }
+}
+
+/// The stencil, `above` or `below`, of the face behind row (j, k) on the way upwards or downwards.
+void Momentum::faceBehindZ(const Velocity& c, int component, int j, int k, int towards,
+                           double* behind) const {
+  double* unused = next_.data();
+  if (towards > 0) rowFaces(c, component, 2, j, k, behind, unused);
+  if (towards < 0) rowFaces(c, component, 2, j, k + 1, unused, behind);
+}
+
+/// Rows of a line of z come one after the other: `behind` holds the stencil of the face behind the
+/// row (j, k), and then that of the face ahead, for the next row.
+void Momentum::coefficientsZ(const Velocity& c, int component, int j, int k, int towards,
+                             double* __restrict behind, Row row) const {
+  const Direction& m = metric_[component][2];
+  const int ahead = towards > 0 ? k + 1 : k;
+  double* __restrict off_behind = towards > 0 ? row.lower : row.upper;
+  double* __restrict off_ahead = towards > 0 ? row.upper : row.lower;
+  double* __restrict next = next_.data();
+  const double iw = towards * m.inverse_width[k];
+  const int i0 = first(component, 0), i1 = last(component, 0);
+  for (int i = i0; i <= i1; ++i) off_behind[i] = -iw * behind[i];
+  towards > 0 ? rowFaces(c, component, 2, j, ahead, behind, next)
+              : rowFaces(c, component, 2, j, ahead, next, behind);
+  for (int i = i0; i <= i1; ++i) off_ahead[i] = iw * next[i];
+}
+
 void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Velocity& vm,
                        const Velocity& c, const Array& p, const WallVelocity& wall_n) {
   step_ = step;
@@ -119,8 +144,8 @@ void Momentum::prepare(const MomentumStep& step, const Velocity& vn, const Veloc
       const bool swept = !(component == 2 && k == grid_.k_wing);
       solvePlane(component, k, swept, [&](int j, Row x, Row y) {
         rightSide(vn, vm, c, p, wall_n, component, j, k);
-        coefficientsX<FactorFace>(c, component, j, k, x);
-        coefficientsY<FactorFace>(c, component, j, k, y);
+        coefficientsX(c, component, j, k, x);
+        coefficientsY(c, component, j, k, y);
         mobilise(component, j, k, {x.lower, x.upper, y.lower, y.upper});
       });
       if (swept) continue;
@@ -138,8 +163,8 @@ void Momentum::finish(const Velocity& vn, const Velocity& c, const WallVelocity&
     double* plane = delta_.c[2].data() + layout_.plane(kw);
     std::copy(wing_plane_.begin(), wing_plane_.end(), plane);
     solvePlane(2, kw, true, [&](int j, Row x, Row y) {
-      coefficientsX<FactorFace>(c, 2, j, kw, x);
-      coefficientsY<FactorFace>(c, 2, j, kw, y);
+      coefficientsX(c, 2, j, kw, x);
+      coefficientsY(c, 2, j, kw, y);
       mobilise(2, j, kw, {x.lower, x.upper, y.lower, y.upper});
       double* d = delta_.c[2].data() + layout_.at(0, j, kw);
       fixWingFaces(wall_change, j, x, d);
@@ -151,27 +176,9 @@ void Momentum::finish(const Velocity& vn, const Velocity& c, const WallVelocity&
 
 void Momentum::normalTransport(const Velocity& c, const Velocity& v_star, int j, double* out) {
   const int kw = grid_.k_wing;
-  const double* __restrict w = v_star.c[2].data() + layout_.at(0, j, kw);
   std::fill(out, out + layout_.nx, 0.0);
-  for (int direction = 0; direction < 3; ++direction) {
-    double* lo = lower_.data();
-    double* up = upper_.data();
-    double iw = 1;
-    if (direction == 0) {
-      coefficientsX<CentralFace>(c, 2, j, kw, {lo, up});
-    } else {
-      iw = metric_[2][direction].inverse_width[direction == 1 ? j : kw];
-      rowFaces<CentralFace>(c, 2, direction, j, kw, lo, up);
-      for (int i = 0; i < layout_.nx; ++i) lo[i] = -lo[i];
-      rowFaces<CentralFace>(c, 2, direction, j + (direction == 1), kw + (direction == 2),
-                            next_.data(), up);
-    }
-    const std::ptrdiff_t s = layout_.stride(direction);
-    for (int i = 0; i < layout_.nx; ++i) {
-      if (grid_.isWing(i, j))
-        out[i] += iw * (lo[i] * (w[i - s] - w[i]) + up[i] * (w[i + s] - w[i]));
-    }
-  }
+  subtractTransport(c, 2, j, kw, v_star.c[2].data() + layout_.at(0, j, kw), out);
+  for (int i = 0; i < layout_.nx; ++i) out[i] = grid_.isWing(i, j) ? -out[i] : 0.0;
 }
 
 /// Where the wing lies between two points each of them sees the wall at half a cell instead.
@@ -184,56 +191,6 @@ void Momentum::cutAtWing(int component, int j, int k, double* __restrict off,
     const double b = blocked(component, i, j);
     off[i] += b * link;
     diagonal[i] = b * wall;
-  }
-}
-
-/// (v^n - v^(n-1)) / 3 - a (A v^n + grad p / rho) less the fourth differences, of one row.
-void Momentum::rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
-                         const WallVelocity& wall_n, int component, int j, int k) {
-  const std::ptrdiff_t row = layout_.at(0, j, k), sc = layout_.stride(component);
-  const int i0 = first(component, 0), i1 = last(component, 0), kw = grid_.k_wing;
-  const double* __restrict v = vn.c[component].data() + row;
-  const double* __restrict w = vm.c[component].data() + row;
-  const double* __restrict q = p.data() + row;
-  const double* __restrict q_before = q - sc;
-  double* __restrict d = delta_.c[component].data() + row;
-  const double third = step_.second_order ? 1.0 / 3 : 0.0, scale = step_.a / step_.rho;
-  const double* __restrict iw = metric_[component][component].inverse_width.data();
-  if (component == 0) {
-    for (int i = i0; i <= i1; ++i)
-      d[i] = third * (v[i] - w[i]) - scale * iw[i] * (q[i] - q_before[i]);
-  } else {
-    const double gradient = scale * iw[component == 1 ? j : k];
-    for (int i = i0; i <= i1; ++i) d[i] = third * (v[i] - w[i]) - gradient * (q[i] - q_before[i]);
-  }
-
-  double* behind = z_behind_.data() + j * layout_.sy;
-  const Row x{x_central_[0].data(), x_central_[1].data()};
-  const Row y{y_central_[0].data(), y_central_[1].data()};
-  coefficientsX<CentralFace>(c, component, j, k, x);
-  coefficientsY<CentralFace>(c, component, j, k, y);
-  if (k == first(component, 2)) faceBehindZ<CentralFace>(c, component, j, k, +1, behind);
-  coefficientsZ<CentralFace>(c, component, j, k, +1, behind, {lower_.data(), upper_.data()});
-  if (component != 2 && (k == kw || k == kw - 1)) {
-    cutAtWing(component, j, k, k == kw ? lower_.data() : upper_.data(), wall_diagonal_.data());
-    const double y_point = position(component, 1, j);
-    for (int i = i0; i <= i1; ++i)
-      d[i] += wall_diagonal_[i] * (wall_n.at(component, position(component, 0, i), y_point) - v[i]);
-  }
-  subtractFluxes({x.lower, x.upper, y.lower, y.upper, lower_.data(), upper_.data()}, v, layout_.sy,
-                 layout_.sz, i0, i1, d);
-
-  const double share = step_.a / step_.dt * kDissipation, courant = 0.5 * step_.dt * share;
-  const double* cx = c.c[0].data() + row;
-  const double* cy = c.c[1].data() + row;
-  subtractFourth(v, 1, cx, component == 0 ? cx : cx - sc, fourth_x_[component].data(), courant,
-                 share, i0, i1, d);
-  if (j >= 2 + first(component, 1) && j <= layout_.ny - 3) {
-    subtractFourth(v, layout_.sy, cy, component == 1 ? cy : cy - sc, one_.data(),
-                   courant * metric_[component][1].inverse_width[j], share, i0, i1, d);
-  }
-  if (const double* m = grid_.mobility.row(component, j, k)) {
-    for (int i = i0; i <= i1; ++i) d[i] += (m[i] - 1) * (d[i] - third * (v[i] - w[i]));
   }
 }
 

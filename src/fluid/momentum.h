@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <type_traits>
 
 #include "fluid/field.h"
 #include "fluid/frame.h"
@@ -16,9 +15,6 @@ struct MomentumStep {
   double rho;         ///< [kg/m^3]
   bool second_order;  ///< BDF2; false: implicit Euler
 };
-
-struct CentralFace;
-struct FactorFace;
 
 /// Implicit convection and diffusion on the staggered grid, factored by direction.
 ///
@@ -63,13 +59,6 @@ class Momentum {
     double* lower;
     double* upper;
   };
-  struct YFaces {  ///< two rows of faces, of the rows j and j + 1
-    Array above, below;
-  };
-  template <class Face>
-  YFaces& yFaces() {
-    return std::is_same_v<Face, CentralFace> ? y_central_faces_ : y_factor_faces_;
-  }
   /// First and last unknown of a component along a direction; along z those of this process.
   int first(int component, int direction) const {
     const int whole = component == direction ? 1 : 0;
@@ -80,20 +69,21 @@ class Momentum {
   }
   double position(int component, int direction, int index) const;
 
-  // Face: CentralFace for the right side, FactorFace for the implicit factors.
-  template <class Face>
   void rowFaces(const Velocity& c, int component, int direction, int j, int k, double* above,
                 double* below) const;
-  template <class Face>
   void coefficientsX(const Velocity& c, int component, int j, int k, Row row);
-  template <class Face>
   void coefficientsY(const Velocity& c, int component, int j, int k, Row row);
-  template <class Face>
   void faceBehindZ(const Velocity& c, int component, int j, int k, int towards,
                    double* behind) const;
-  template <class Face>
   void coefficientsZ(const Velocity& c, int component, int j, int k, int towards, double* behind,
                      Row row) const;
+  /// d -= a A v along a row, all but the wall's shear; `v` and `d` begin at the point (0, j, k).
+  void subtractTransport(const Velocity& c, int component, int j, int k, const double* v,
+                         double* d) const;
+  void subtractFourthDifferences(const Velocity& c, int component, int j, int k, const double* v,
+                                 double* d) const;
+  void addWallShear(const WallVelocity& wall, int component, int j, int k, const double* v,
+                    double* d);
   void rightSide(const Velocity& vn, const Velocity& vm, const Velocity& c, const Array& p,
                  const WallVelocity& wall_n, int component, int j, int k);
   void cutAtWing(int component, int j, int k, double* off, double* diagonal) const;
@@ -156,8 +146,7 @@ class Momentum {
   Array wing_plane_;  ///< right side of w in the wing's plane, before any factor
   // Scratch: single rows, two rows of faces, blocks of kLines rows, and such blocks interleaved
   Array lower_, upper_, wall_diagonal_, wall_side_, zero_, x_above_, x_below_, one_;
-  Array x_central_[2], y_central_[2];  ///< of the right side: lower, upper
-  YFaces y_central_faces_, y_factor_faces_;
+  Array y_above_, y_below_;
   Array x_lower_, x_upper_, y_lower_, y_upper_;
   Array lane_lower_, lane_upper_, lane_gamma_, lane_side_;
   Array gamma_;     ///< factors of a plane

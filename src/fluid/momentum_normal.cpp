@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "fluid/momentum.h"
-#include "fluid/momentum_stencil.h"
 
 namespace monarch_flight {
 
@@ -22,8 +21,7 @@ void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, 
   const int kw = grid_.k_wing;
   double* lower = lower_.data();
   double* upper = upper_.data();
-  coefficientsZ<FactorFace>(c, component, j, k, towards, &z_behind_[j * layout_.sy],
-                            {lower, upper});
+  coefficientsZ(c, component, j, k, towards, &z_behind_[j * layout_.sy], {lower, upper});
   const bool is_end = towards > 0 ? k == (component == 2) : k == layout_.nz - 1;
   const std::ptrdiff_t row = layout_.at(0, j, k);
   const double* __restrict near = towards > 0 ? lower : upper;
@@ -71,7 +69,7 @@ void Momentum::eliminate(const Velocity& c, const WallVelocity& wall_change, con
   const int towards = half == 0 ? +1 : -1, planes = (end - begin) * towards + 1;
   if (planes <= 0) return;
   for (int j = rows.first; j <= rows.last; ++j)
-    faceBehindZ<FactorFace>(c, lines.component, j, begin, towards, &z_behind_[j * layout_.sy]);
+    faceBehindZ(c, lines.component, j, begin, towards, &z_behind_[j * layout_.sy]);
   for (int n = 0; n < planes; ++n) {
     for (int j = rows.first; j <= rows.last; ++j)
       eliminateRow(c, wall_change, lines, j, begin + n * towards, towards);
