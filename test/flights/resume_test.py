@@ -22,7 +22,7 @@ def messages(folder):
             if topic == "/diagnostics":
                 continue
             if topic == "/monarch_flight/state":
-                message.wall_s, message.exchange_s = (0.0, 0.0, 0.0), 0.0
+                message.wall_s, message.exchange_s, message.coupling_s = (0.0, 0.0, 0.0), 0.0, 0.0
             for row in message.rows if topic == "/monarch_flight/iterations" else ():
                 row.fluid_wall_s = 0.0
             rows.append((topic, t.to_nsec(), message))
@@ -49,7 +49,10 @@ class Resume(flying.FlightTest):
         for name in ("flight.csv", "case.yaml"):
             with open(os.path.join(whole, name)) as a, open(os.path.join(cut, name)) as b:
                 self.assertEqual(a.read(), b.read(), name)
-        self.assertEqual(messages(whole), messages(cut))
+        a, b = messages(whole), messages(cut)
+        self.assertEqual(len(a), len(b))
+        different = next((pair for pair in zip(a, b) if pair[0] != pair[1]), None)
+        self.assertIsNone(different)  # not the lists: a difference of thousands of messages takes hours
 
     # Delays make the flight long enough to be hit in the middle, and are the test of their own that
     # the time at which answers come changes nothing.
