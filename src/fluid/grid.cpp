@@ -66,6 +66,12 @@ std::vector<double> stretchedOffsets(Stretching stretching, double total) {
   return offset;
 }
 
+/// How many cells planeFaces puts across a box of this length and its margins.
+double uniformCells(double length, double spacing, double margin) {
+  const double half = std::max(1.0, std::round(0.5 * length / spacing));
+  return 2.0 * (half + std::ceil(margin * half / (0.5 * length)));
+}
+
 /// Faces symmetric about (low + high) / 2, uniform over [low, high] (an even number of cells, faces
 /// on both ends) and at least `margin` around it, stretched beyond up to `far` from the box.
 std::vector<double> planeFaces(double low, double high, double spacing, double margin, double far,
@@ -187,7 +193,8 @@ Grid makeGrid(const Planform& planform, const GridSettings& settings) {
   const double chord = planform.meanChord();
   const double spacing = chord / settings.cells_per_chord;
   const double margin = settings.margin * chord, far = settings.far_field * chord;
-  requireAffordable((planform.xMax() - planform.xMin()) / spacing, planform.span() / spacing, 1.0);
+  requireAffordable(uniformCells(planform.xMax() - planform.xMin(), spacing, margin),
+                    uniformCells(planform.span(), spacing, margin), 1.0);
 
   auto x =
       planeFaces(planform.xMin(), planform.xMax(), spacing, margin, far, settings.growth_plane);

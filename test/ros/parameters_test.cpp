@@ -2,6 +2,7 @@
 #include <XmlRpcValue.h>
 #include <gtest/gtest.h>
 
+#include "core/mutation.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/ros_io/run_parameters.h"
 
@@ -79,6 +80,27 @@ TEST(RunParameters, ListsAndPrivateParametersAreRefused) {
     EXPECT_NE(std::string::npos, what.find("/monarch_flight/flaps: must be a number")) << what;
     EXPECT_NE(std::string::npos, what.find("/monarch_flight/fluid/density: unknown")) << what;
   }
+}
+
+/// 2,000 broken command lines: read, or refused with a message.
+TEST(RunParameters, BrokenCommandLinesAreReadOrRefused) {
+  Mutation mutation(7);
+  const char* const good[] = {"case:=hinge",  "flaps:=0.1",    "steps_per_flap:=200", "ranks:=2",
+                              "watchdog:=30", "paused:=false", "fluid:=quasi_steady"};
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<std::string> arguments;
+    const int count = 1 + mutation.pick(3);
+    for (int k = 0; k < count; ++k) arguments.push_back(mutation(good[mutation.pick(7)]));
+    for (std::string& a : arguments) a = std::string(a.c_str());  // as the system hands them over
+    try {
+      fromArguments(arguments);
+    } catch (const InputError& e) {
+      ++refused;
+      EXPECT_GT(std::string(e.what()).size(), 10u);
+    }
+  }
+  EXPECT_GT(refused, 1000);
 }
 
 TEST(OutputDirectory, StartsWhereTheRunWasCalled) {
