@@ -52,7 +52,7 @@ class SolverNode:
         self.role, self.solver = role, solver
         self.place = "%s/%s/" % (NAMESPACE, role)
         self.lock = threading.Lock()  # each connection has a thread of its own
-        self.greeting = self.cache = self.case = None
+        self.greeting = self.cache = self.kept = self.case = None
         self.case_known, self.over = threading.Event(), threading.Event()
         self.refused = 0
         rospy.init_node(role, disable_signals=True)
