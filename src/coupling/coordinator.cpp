@@ -170,7 +170,7 @@ CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
   out.t = model_.time(step);
   out.prescribed = static_cast<int>(step) <= settings_.prescribed_steps || model_.free.count() == 0;
   before_.take([this](StateVisitor& state) { memory(state); });
-  step_model_.begin(committed_, out.t);
+  step_model_.begin(committed_, step);
 
   Evaluation last;
   try {
