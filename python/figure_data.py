@@ -1,4 +1,4 @@
-"""What the figures are drawn from: tables of runs, the reduced measured flight, and runs made when missing."""
+"""What the figures are drawn from: recorded runs, the reduced measured flight, and runs made when missing."""
 import csv
 import math
 import pathlib
@@ -23,13 +23,20 @@ def table(path):
 
 
 def flight(folder):
-    """flight.csv of a run; the table of a run that still goes or died is taken as far as it reaches."""
-    for name in ("flight.csv", "flight.csv.active"):
-        if (folder / name).exists():
-            data = table(folder / name)
-            if len(data["t"]) > 2:
-                return data
-    sys.exit(f"figures: {folder}: no flight.csv with steps in it; give the folder of a run")
+    """The flight that a run recorded in flight.bag: time, path, angles and force of both wings, NED, SI."""
+    import rosbag  # takes its time
+
+    path = folder / "flight.bag"
+    if not path.exists():
+        sys.exit(f"figures: {path}: does not exist; give the folder of a run that was recorded to its end")
+    rows = []
+    with rosbag.Bag(str(path)) as bag:
+        for _, m, _ in bag.read_messages(topics=["/monarch_flight/state"]):
+            s = m.interface
+            rows.append((m.t, s.position[0], s.position[2], s.theta_b[0], s.theta_r[0], m.phi[0], m.force[0], m.force[2]))
+    if len(rows) < 3:
+        sys.exit(f"figures: {path}: holds no steps; the run ended at its start")
+    return dict(zip(("t", "x", "z", "theta_B", "theta_R", "phi", "FX", "FZ"), np.array(rows).T))
 
 
 def case_of(folder):
@@ -48,16 +55,33 @@ def run(folder, case, *options):
     return folder
 
 
-def with_wing_mass(case, mass, folder):
-    """A case file like `case` with another mass of one wing [kg]."""
-    with open(ROOT / f"config/cases/{case}.yaml", encoding="utf-8") as file:
-        content = yaml.safe_load(file)
-    content["name"] = f"{content['name']}_{mass * 1e6:.2f}mg"
-    content["insect"].setdefault("wing", {})["mass"] = mass
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{content['name']}.yaml"
-    path.write_text(yaml.safe_dump(content, sort_keys=False), encoding="utf-8")
-    return path
+def sweep(folder, case, masses, *options):
+    """{label: run folder} of flights over the mass of one wing [kg]; flown first where they are missing."""
+    values = ",".join(f"{mass:.4g}" for mass in masses)
+    command = [str(ROOT / "scripts/sweep"), f"case:={case}", f"over:=wing/mass={values}", f"out:={folder}", *options]
+    if subprocess.run(command, check=False).returncode:
+        sys.exit(f"figures: the sweep of {case} failed; the reason is above")
+    found = {}
+    for run_ in (folder / "runs").iterdir():
+        found[case_of(run_)["insect"]["wing"]["mass"]] = run_
+    return {f"{1e6 * mass:.2f} mg": found[mass] for mass in sorted(found)}
+
+
+def rendered(folder, flap, out):
+    """The picture of a run's flow at t/T = `flap` (scripts/render_field)."""
+    picture = out / f"fig9_{flap:.1f}.png"
+    command = [str(ROOT / "scripts/render_field"), str(folder), str(picture), f"flap:={flap}"]
+    if subprocess.run(command, check=False).returncode:
+        sys.exit(f"figures: {folder}: no picture of its flow; the reason is above")
+    return picture
+
+
+def distance_to_measured(flight_):
+    """rms distance of the body's path to the measured path of the thorax, both from their starts, as far as both go [m]."""
+    real, t = measured()["columns"], flight_["t"] - flight_["t"][0]
+    both = real["t"] <= t[-1]
+    gaps = [np.interp(real["t"][both], t, flight_[k] - flight_[k][0]) - (real[k][both] - real[k][0]) for k in ("x", "z")]
+    return math.sqrt(np.mean(gaps[0] ** 2 + gaps[1] ** 2))
 
 
 def markers():
@@ -94,10 +118,9 @@ def measured_forces(flight_, mass, gravity=9.81):
     return np.cos(theta) * fx - np.sin(theta) * fz, -(np.sin(theta) * fx + np.cos(theta) * fz)
 
 
-def strokes(folder, first):
+def strokes(table_, frequency, first):
     """Mean over the whole strokes from number `first` (1 is the first): half the swing and the fundamental's amplitude
     of the wing's pitch [rad], the fundamental's phase behind cos(2 pi f t) [strokes], mean lift [N], peak lift [N]."""
-    table_, frequency = flight(folder), case_of(folder)["motion"]["frequency"]
     steps = int(round(1 / frequency / (table_["t"][1] - table_["t"][0])))
     found = []
     for start in range((first - 1) * steps, len(table_["t"]) - steps, steps):
@@ -105,5 +128,5 @@ def strokes(folder, first):
         fundamental = 2 * np.mean(theta * np.exp(-2j * np.pi * frequency * table_["t"][start:start + steps]))
         found.append([np.ptp(theta) / 2, abs(fundamental), -np.angle(fundamental) / (2 * np.pi), -lift.mean(), -lift.min()])
     if not found:
-        sys.exit(f"figures: {folder}: has no whole stroke from number {first} on")
+        sys.exit(f"figures: the run has no whole stroke from number {first} on; fly more")
     return np.mean(found, axis=0)

@@ -1,4 +1,4 @@
-"""The paper's figures 2, 4 to 8 and those of docs/dynamics.md; each function returns a matplotlib figure."""
+"""The paper's figures 2, 4 to 9 and those of docs/dynamics.md; each function returns a matplotlib figure."""
 import json
 import math
 
@@ -62,8 +62,7 @@ def figure_2(_):
     return figure
 
 
-def last_stroke(folder):
-    flight, frequency = data.flight(folder), data.case_of(folder)["motion"]["frequency"]
+def last_stroke(flight, frequency):
     steps = int(round(1 / frequency / (flight["t"][1] - flight["t"][0])))
     return {k: v[-steps - 1:] for k, v in flight.items()}, (flight["t"][-steps - 1:] - flight["t"][-steps - 1]) * frequency
 
@@ -75,10 +74,11 @@ def figure_4(settings):
     figure, (top, bottom) = plt.subplots(2, 1, sharex=True, figsize=(7, 6), constrained_layout=True)
     for label, (name, fluid, colour, line) in runs.items():
         folder = data.run(settings.runs / name, "hinge", f"fluid:={fluid}", "grid:=preview", "flaps:=6")
-        swing, fundamental, phase, mean, peak = data.strokes(folder, 3)
+        flight, frequency = data.flight(folder), data.case_of(folder)["motion"]["frequency"]
+        swing, fundamental, phase, mean, peak = data.strokes(flight, frequency, 3)
         print(f"{label}, strokes 3 to 6: half the swing {deg(swing):.2f} deg, fundamental {deg(fundamental):.2f} deg, "
               f"{phase:.4f} strokes behind the flapping; lift mean {1e3 * mean:.4f} mN, peak {1e3 * peak:.4f} mN")
-        flight, t = last_stroke(folder)
+        flight, t = last_stroke(flight, frequency)
         lift = -1e3 * flight["FZ"]
         top.plot(t, deg(flight["theta_R"]), color=colour, ls=line, label=label)
         bottom.plot(t, lift, color=colour, ls=line, label=f"{label}, mean {lift[:-1].mean():.3f} mN")
@@ -145,33 +145,32 @@ def figure_6(_):
     return figure
 
 
+MASSES = [35.35e-6, 35.8e-6, 36.25e-6, 36.75e-6, 37.25e-6]  # of a wing, the range of the paper [kg]
+
+
 def free_runs(settings, masses):
     """{label: run folder}: those given by runs:=, or one flight for each wing mass."""
     if settings.given:
         return {str(folder.name): folder for folder in settings.given}
-    found = {}
-    for mass in masses:
-        case = data.with_wing_mass(settings.case, mass, settings.runs)
-        name = f"{settings.case}_{settings.fluid}_{mass * 1e6:.2f}mg"
-        options = (f"fluid:={settings.fluid}", "grid:=preview", f"flaps:={settings.flaps}")
-        found[f"{mass * 1e6:.2f} mg"] = data.run(settings.runs / name, case, *options)
-    return found
+    options = [f"fluid:={settings.fluid}", f"flaps:={settings.flaps}"] + ["grid:=preview"] * (settings.fluid == "navier_stokes")
+    return data.sweep(settings.runs / f"{settings.case}_{settings.fluid}_{len(masses)}", settings.case, masses, *options)
 
 
 def figure_7(settings):
     """Paths of the free flights over the mass of a wing, and the measured path."""
     figure, axes = plt.subplots(figsize=(9, 4), constrained_layout=True)
-    runs = free_runs(settings, [35.35e-6, 35.8e-6, 36.25e-6, 36.75e-6, 37.25e-6])
-    colours = plt.cm.viridis(np.linspace(0, 0.9, len(runs)))
-    for (label, folder), colour in zip(runs.items(), colours):
-        flight = data.flight(folder)
-        best = "36.25" in label
-        axes.plot(1e2 * (flight["x"] - flight["x"][0]), -1e2 * (flight["z"] - flight["z"][0]), label=label,
+    flights = {label: data.flight(folder) for label, folder in free_runs(settings, MASSES).items()}
+    gaps = {label: 1e3 * data.distance_to_measured(flight) for label, flight in flights.items()}
+    colours = plt.cm.viridis(np.linspace(0, 0.9, len(flights)))
+    for (label, flight), colour in zip(flights.items(), colours):
+        best = gaps[label] == min(gaps.values())
+        axes.plot(1e2 * (flight["x"] - flight["x"][0]), -1e2 * (flight["z"] - flight["z"][0]),
+                  label=f"{label}, {gaps[label]:.1f} mm from measured" + " (nearest)" * best,
                   lw=2.2 if best else 1.1, color=THEIRS if best else colour)
     columns = data.measured()["columns"]
     axes.plot(1e2 * columns["x"], -1e2 * columns["z"], color=MEASURED, ls=":", lw=1.8, label="measured (thorax)")
     axes.set(xlabel="forward [cm]", ylabel="up [cm]", aspect="equal", title=f"Path of the body, {settings.title()}")
-    axes.legend(fontsize=8, title=None if settings.given else "mass of a wing")
+    axes.legend(fontsize=8, title=("run" if settings.given else "mass of a wing") + ", rms distance over the measured time")
     return figure
 
 
@@ -204,6 +203,19 @@ def figure_8(settings):
     return figure
 
 
+def figure_9(settings):
+    """Vortices, wing pressure and flown path at t/T = 0.5 and 3, rendered off screen."""
+    folder = settings.given[0] if settings.given else data.run(
+        settings.runs / f"{settings.case}_fields", settings.case, "fluid:=navier_stokes", "grid:=preview", "flaps:=3",
+        "fields_every:=250")
+    figure, panels = plt.subplots(1, 2, figsize=(13, 4.8), constrained_layout=True)
+    for axes, flap, name in zip(panels, (0.5, 3.0), "ab"):
+        axes.imshow(plt.imread(data.rendered(folder, flap, settings.out)))
+        axes.set(title=f"{name}) t/T = {flap}")
+        axes.axis("off")
+    return figure
+
+
 def figure_dynamics(settings):
     """Body pitch over the published hover with either moment row; error of the time stepping over its step."""
     attitude = data.table(settings.verification / "published_attitude.csv")
@@ -230,4 +242,4 @@ def figure_dynamics(settings):
 
 
 FIGURES = {"fig2": figure_2, "fig4": figure_4, "fig5": figure_5, "fig6": figure_6, "fig7": figure_7,
-           "fig8": figure_8, "dynamics": figure_dynamics}
+           "fig8": figure_8, "fig9": figure_9, "dynamics": figure_dynamics}

@@ -151,7 +151,7 @@ CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
   out.step = step;
   out.t = model_.time(step);
   out.prescribed = static_cast<int>(step) <= settings_.prescribed_steps || model_.free.count() == 0;
-  step_model_.begin(committed_, out.t);
+  step_model_.begin(committed_, step);
 
   Evaluation last;
   if (out.prescribed) {

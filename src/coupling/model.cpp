@@ -15,6 +15,15 @@ Interface CoupledModel::prescribed(double t) const {
   return {state.body, state.angles.theta};
 }
 
+Interface CoupledModel::departure(std::uint32_t step, Interface committed,
+                                  const Interface& next) const {
+  if (release == 0 || step != release) return committed;
+  committed.body.a = next.body.a;
+  committed.body.pitch.qdd = next.body.pitch.qdd;
+  committed.theta_R.qdd = next.theta_R.qdd;
+  return committed;
+}
+
 std::vector<std::string> CoupledModel::problems() const {
   std::vector<std::string> faults;
   if (!motion) faults.push_back("motion: is missing; give a Fourier series or a table");

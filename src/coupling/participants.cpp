@@ -54,8 +54,9 @@ void FlightParticipant::onStart(const Request&, Reply&) {}
 void FlightParticipant::onIterate(const Request& request, Reply& reply) {
   const BodyState prescribed = model().prescribed(request.t).body;
   const JointAngles angles = model().angles(request.t, request.interface.theta_R);
+  const Interface from = model().departure(request.key.step, committed(), request.interface);
   reply.interface.body =
-      solver_.step(committed().body, prescribed, request.interface.body, angles, request.loads);
+      solver_.step(from.body, prescribed, request.interface.body, angles, request.loads);
 }
 
 void FlightParticipant::onCommit(const Request&, Reply&) {}
@@ -73,8 +74,9 @@ void WingParticipant::onStart(const Request&, Reply&) {}
 
 void WingParticipant::onIterate(const Request& request, Reply& reply) {
   const JointAngles angles = model().angles(request.t, request.interface.theta_R);
+  const Interface from = model().departure(request.key.step, committed(), request.interface);
   reply.interface.theta_R =
-      solver_ ? solver_->step(committed().theta_R, request.interface.body, angles, request.loads)
+      solver_ ? solver_->step(from.theta_R, request.interface.body, angles, request.loads)
               : model().prescribed(request.t).theta_R;
 }
 

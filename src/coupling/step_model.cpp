@@ -11,9 +11,10 @@ StepModel::StepModel(const CoupledModel& model, double length_scale)
   if (model.free.wing_pitch) wing_.emplace(model.insect, model.gravity, model.newmark);
 }
 
-void StepModel::begin(const Interface& committed, double t) {
+void StepModel::begin(const Interface& committed, std::uint32_t step) {
   committed_ = committed;
-  const PrescribedState state = model_.motion->at(t);
+  step_ = step;
+  const PrescribedState state = model_.motion->at(model_.time(step));
   prescribed_ = {state.body, state.angles.theta};
   prescribed_angles_ = state.angles;
 }
@@ -37,18 +38,24 @@ CouplingVector StepModel::increments(const Interface& interface) const {
 Interface StepModel::interface(const CouplingVector& increments) const {
   const CouplingVector a = increments.cwiseProduct(scales_);
   Interface next = prescribed_;
-  next.body =
-      advancedBody(committed_.body, prescribed_.body, model_.free, model_.newmark, a.head<3>());
-  if (model_.free.wing_pitch) next.theta_R = model_.newmark.advance(committed_.theta_R, a(3));
+  next.body.a.x() = a(0);
+  next.body.a.z() = a(1);
+  next.body.pitch.qdd = a(2);
+  next.theta_R.qdd = a(3);
+  const Interface from = model_.departure(step_, committed_, next);
+  next.body = advancedBody(from.body, prescribed_.body, model_.free, model_.newmark, a.head<3>());
+  next.theta_R = model_.free.wing_pitch ? model_.newmark.advance(from.theta_R, a(3))
+                                        : prescribed_.theta_R;
   return next;
 }
 
 CouplingVector StepModel::residual(const CouplingVector& d, const Loads& loads) const {
   const Interface guess = interface(d);
   const JointAngles guessed = angles(guess.theta_R);
+  const Interface from = model_.departure(step_, committed_, guess);
   Interface answer = guess;
-  answer.body = flight_.step(committed_.body, prescribed_.body, guess.body, guessed, loads);
-  if (wing_) answer.theta_R = wing_->step(committed_.theta_R, answer.body, guessed, loads);
+  answer.body = flight_.step(from.body, prescribed_.body, guess.body, guessed, loads);
+  if (wing_) answer.theta_R = wing_->step(from.theta_R, answer.body, guessed, loads);
   return increments(answer) - d;
 }
 

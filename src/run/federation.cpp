@@ -79,6 +79,9 @@ CoupledModel makeModel(const Case& c) {
   model.wind_I = c.air.wind_I;
   model.t_start = c.time.t_start;
   model.steps = c.time.steps;
+  if (!c.coupling.accelerations_known) {
+    model.release = static_cast<std::uint32_t>(c.coupling.prescribed_steps) + 1;
+  }
   model.surface_every = c.output.surface_every;
   model.fields_every = c.output.fields_every;
   model.vortices_every = c.output.vortices_every;

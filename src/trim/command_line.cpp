@@ -164,7 +164,8 @@ TrimCommand trimCommand(const std::vector<std::string>& given) {
   if (!quick) {
     newton.max_step = 0.8;
     newton.max_halvings = 4;
-    newton.damping = 1.0;
+    newton.damping = 0.1;
+    newton.weight = options.targets.empty() ? 0.0 : 5.0;
     newton.step_tolerance = 0.05;
   }
   command.jacobian_file = arguments.text("jacobian");

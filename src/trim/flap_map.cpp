@@ -35,7 +35,8 @@ const std::vector<TrimParameter>& trimParameters() {
       {"m_R", {"insect", "wing", "mass"}, "kg", 2e-6, 0, 0},
       {"kappa", {"insect", "wing", "kappa"}, "N m/rad", 2e-5, 0, 0},
       {"theta_0", {"insect", "wing", "theta_0"}, "rad", 0.1, 0, 0},
-      {"root_x", {"insect", "wing", "root", "0"}, "m", 5e-4, 0, 0}};
+      {"root_x", {"insect", "wing", "root", "0"}, "m", 5e-4, 0, 0},
+      {"root_z", {"insect", "wing", "root", "2"}, "m", 5e-4, 0, 0}};
   return all;
 }
 
@@ -101,6 +102,7 @@ Case FlapMap::withStart(const TrimPoint& point, const FlapState& a) const {
   if (c.free.wing_pitch) start.theta_R = StartValue{s(4), s(5), a(5)};
   c.motion = std::make_shared<StartMotion>(c.motion, start, c.time.t_start);
   c.coupling.prescribed_steps = 0;
+  c.coupling.accelerations_known = true;
   return c;
 }
 

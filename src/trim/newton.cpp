@@ -18,7 +18,13 @@ using Eigen::VectorXd;
 constexpr double kNear = 0.3;      // periodicity within which the targets lead
 
 /// A better point: closer to periodic flight or, near it, closer to the targets.
-bool better(const TrimResidual& next, const TrimResidual& now) {
+bool better(const TrimResidual& next, const TrimResidual& now, double weight) {
+  if (weight > 0.0) {
+    const auto merit = [weight](const TrimResidual& r) {
+      return std::hypot(weight * r.periodicity.norm(), r.targets.norm());
+    };
+    return merit(next) < merit(now);
+  }
   const double before = now.periodicity.norm(), after = next.periodicity.norm();
   if (after < 0.9 * before) return true;
   if (next.targets.size() == 0) return after < before;
@@ -112,12 +118,12 @@ std::optional<TrimResidual> search(const TrimFunction& f, NewtonResult& r, Vecto
     const auto trial = f(r.unknowns + step);
     ++r.evaluations;
     if (trial && settings.broyden) update(r.jacobian, step, r.residual, *trial);
-    if (trial && better(*trial, r.residual)) {
+    if (trial && better(*trial, r.residual, settings.weight)) {
       limit = std::min(2.0 * limit, settings.max_step);
       return trial;
     }
     limit = 0.5 * step.cwiseAbs().maxCoeff();
-    if (settings.broyden) step = trimStep(r.jacobian, r.residual, r.unknowns, settings);
+    if (settings.broyden) step = trimStep(r.jacobian, r.residual, r.unknowns, settings, limit);
   }
   return std::nullopt;
 }
@@ -158,10 +164,25 @@ MatrixXd differenceJacobian(const TrimFunction& f, const VectorXd& at, const Tri
   return J;
 }
 
+/// Least squares of periodicity, weighted, and targets over all unknowns within the limit.
+VectorXd jointStep(const MatrixXd& jacobian, const TrimResidual& residual, const VectorXd& unknowns,
+                   const NewtonSettings& settings, double limit) {
+  const Index n = residual.periodicity.size(), q = unknowns.size() - n;
+  MatrixXd A = jacobian;
+  VectorXd a = residual.stacked();
+  A.topRows(n) *= settings.weight;
+  a.head(n) *= settings.weight;
+  VectorXd low = VectorXd::Constant(n + q, -limit), high = VectorXd::Constant(n + q, limit);
+  low.tail(q) = low.tail(q).cwiseMax(settings.lower - unknowns.tail(q));
+  high.tail(q) = high.tail(q).cwiseMin(settings.upper - unknowns.tail(q));
+  return boundedLeastSquares(A, a, settings.damping, low, high);
+}
+
 VectorXd trimStep(const MatrixXd& jacobian, const TrimResidual& residual, const VectorXd& unknowns,
-                  const NewtonSettings& settings) {
+                  const NewtonSettings& settings, double limit) {
   const Index n = residual.periodicity.size(), m = residual.targets.size();
   const Index q = unknowns.size() - n;
+  if (settings.weight > 0.0) return jointStep(jacobian, residual, unknowns, settings, limit);
   const auto states = jacobian.topLeftCorner(n, n).completeOrthogonalDecomposition();
   VectorXd step(n + q);
   const VectorXd s0 = states.solve(-residual.periodicity);
@@ -193,9 +214,13 @@ NewtonResult solveTrim(const TrimFunction& f, const VectorXd& start, const Newto
   for (;; ++r.iterations) {
     accepted(r);
     if (r.jacobian.size() == 0 || !settings.broyden) {
+      if (!settings.central) {  // the run-in has taken the last flap's shape: differences start there
+        if (const auto again = f(r.unknowns)) r.residual = *again;
+        ++r.evaluations;
+      }
       r.jacobian = differenceJacobian(f, r.unknowns, r.residual, settings, r.evaluations);
     }
-    VectorXd step = trimStep(r.jacobian, r.residual, r.unknowns, settings);
+    VectorXd step = trimStep(r.jacobian, r.residual, r.unknowns, settings, limit);
     r.converged = done(r, step, n, settings);
     if (r.converged || r.iterations == settings.max_iterations) break;
     const auto next = search(f, r, step, limit, settings);

@@ -266,7 +266,7 @@ TEST(StepModel, IsTheParticipantsOwnAnswer) {
   ASSERT_TRUE(f.run().complete);
   StepModel copy(model, f.settings.length_scale);
   const CommittedStep& before = f.sink.steps[24];
-  copy.begin(before.interface, model.time(25));
+  copy.begin(before.interface, 25);
   const CommittedStep& step = f.sink.steps[25];
   const CouplingVector d = copy.increments(step.interface);
   EXPECT_LT(distance(copy.interface(d), step.interface), 1e-15);

@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "monarch_flight/insect/start_motion.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/state_hash.h"
 
@@ -42,6 +43,38 @@ class Recorder : public StepSink {
 RunResult fly(const Case& c, std::vector<StepSink*> sinks, const StopFlag& stop = false) {
   InProcessFederation federation(c);
   return federation.run(7, sinks, stop);
+}
+
+/// (x, z, theta_B, theta_R) after a quarter of a flap, released at once from explicit initial values
+/// whose accelerations are far from those of the flight; `believed`: taken for those of the flight.
+Eigen::Vector4d quarterFlap(int steps_per_flap, bool believed) {
+  Case c = quasiSteady("climb_trimmed", {{"steps_per_flap", std::to_string(steps_per_flap)}});
+  c.coupling.prescribed_steps = 0;
+  c.coupling.accelerations_known = believed;
+  c.time.steps = static_cast<std::uint32_t>(steps_per_flap) / 4;
+  const PrescribedState s = c.motion->at(c.time.t_start);
+  StartValues start;
+  start.x = StartValue{0.0, s.body.v.x(), 0.0};
+  start.z = StartValue{0.0, s.body.v.z(), 0.0};
+  start.pitch = StartValue{s.body.pitch.q, s.body.pitch.qd, 0.0};
+  start.theta_R = StartValue{s.angles.theta.q, s.angles.theta.qd, 0.0};
+  c.motion = std::make_shared<StartMotion>(c.motion, start, c.time.t_start);
+  Recorder recorder;
+  const RunResult result = fly(c, {&recorder});
+  EXPECT_TRUE(result.complete) << result.failure;
+  const Interface& end = recorder.steps.back().interface;
+  return {end.body.x.x(), end.body.x.z(), end.body.pitch.q, end.theta_R.q};
+}
+
+TEST(Federation, AReleasedFlightIsOfSecondOrderInTheTimeStep) {
+  const auto order = [](bool believed) -> Eigen::Array4d {
+    const Eigen::Vector4d middle = quarterFlap(800, believed);
+    const Eigen::Array4d first = quarterFlap(400, believed) - middle;
+    const Eigen::Array4d second = middle - quarterFlap(1600, believed);
+    return (first / second).abs().log() / std::log(2.0);
+  };
+  EXPECT_LT((order(false) - 2.0).abs().maxCoeff(), 0.2) << order(false).transpose();
+  EXPECT_LT(order(true).minCoeff(), 1.2) << order(true).transpose();
 }
 
 TEST(Federation, TwoFlapsOfTheClimbConvergeInEveryStepAndRepeat) {

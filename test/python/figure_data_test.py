@@ -1,5 +1,4 @@
-"""Numbers behind the figures: forces in body axes, measured forces, strokes of a hinge run, case files of a sweep."""
-import csv
+"""Numbers behind the figures: forces in body axes, measured forces, strokes of a hinge run, recorded flights, sweeps."""
 import math
 import pathlib
 import sys
@@ -7,11 +6,14 @@ import tempfile
 import unittest
 
 import numpy as np
+import rosbag
 import yaml
+from genpy.dynamic import generate_dynamic
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import figure_data as data  # noqa: E402
+import sweep  # noqa: E402
 
 
 class Forces(unittest.TestCase):
@@ -30,29 +32,62 @@ class Forces(unittest.TestCase):
         np.testing.assert_allclose(lift, 0.02 * math.cos(0.3), atol=1e-9)
 
 
+def message_text(name):
+    """Definition of one of our messages with those of its parts, as a bag holds it."""
+    text, parts = (ROOT / f"msg/{name}.msg").read_text(encoding="utf-8"), ""
+    for part in ("InterfaceState", "WingLoads"):
+        parts += "\n" + "=" * 80 + f"\nMSG: monarch_flight/{part}\n" + (ROOT / f"msg/{part}.msg").read_text(encoding="utf-8")
+    return text + "\n" + "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n" + parts
+
+
 class Runs(unittest.TestCase):
     def test_strokes(self):
+        t = np.arange(401) / 100 / 50.0  # four strokes at 50 Hz
+        phase = 2 * np.pi * 50 * t
+        flight = dict(t=t, theta_R=0.7 * np.cos(phase - 2 * np.pi * 0.15), FZ=-2.0 - np.cos(2 * phase))
+        swing, fundamental, behind, mean, peak = data.strokes(flight, 50, 2)
+        np.testing.assert_allclose([swing, fundamental, behind, mean, peak], [0.7, 0.7, 0.15, 2.0, 3.0], atol=1e-9)
+        with self.assertRaises(SystemExit):
+            data.strokes(flight, 50, 5)
+
+    def test_flight_from_its_bag(self):
+        State = generate_dynamic("monarch_flight/FlightState", message_text("FlightState"))["monarch_flight/FlightState"]
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            t = np.arange(401) / 100 / 50.0  # four strokes at 50 Hz
-            with open(folder / "flight.csv", "w", encoding="utf-8", newline="") as file:
-                writer = csv.writer(file)
-                writer.writerow(["t", "theta_R", "FZ"])
-                phase = 2 * np.pi * 50 * t
-                writer.writerows(zip(t, 0.7 * np.cos(phase - 2 * np.pi * 0.15), -2.0 - np.cos(2 * phase)))
-            (folder / "case.yaml").write_text("motion: {frequency: 50}\n", encoding="utf-8")
-            swing, fundamental, behind, mean, peak = data.strokes(folder, 2)
-            np.testing.assert_allclose([swing, fundamental, behind, mean, peak], [0.7, 0.7, 0.15, 2.0, 3.0], atol=1e-9)
             with self.assertRaises(SystemExit):
-                data.strokes(folder, 5)
+                data.flight(folder)
+            with rosbag.Bag(str(folder / "flight.bag"), "w") as bag:
+                for n in range(5):
+                    m = State()
+                    m.t, m.interface.position[0], m.interface.position[2] = 0.1 * n, 1.0 * n, -2.0 * n
+                    m.interface.theta_b[0], m.interface.theta_r[0], m.force[2] = 0.3, -0.1 * n, -4e-3
+                    bag.write("/monarch_flight/state", m)
+            flight = data.flight(folder)
+        np.testing.assert_allclose(flight["z"], [0, -2, -4, -6, -8])
+        np.testing.assert_allclose(flight["theta_R"], [0, -0.1, -0.2, -0.3, -0.4])
+        np.testing.assert_allclose(flight["FZ"], -4e-3)
 
-    def test_case_with_another_wing_mass(self):
+    def test_measured_flight_is_at_no_distance_from_itself(self):
+        real = data.measured()["columns"]
+        flight = {k: real[k] + shift for k, shift in (("t", 3.0), ("x", 1.0), ("z", -2.0))}
+        self.assertLess(data.distance_to_measured(flight), 1e-12)
+        flight["x"] = flight["x"] + 0.01 * (flight["t"] > 3.0)
+        self.assertAlmostEqual(data.distance_to_measured(flight), 0.01, places=3)
+
+
+class Sweep(unittest.TestCase):
+    def test_cases(self):
+        shipped = yaml.safe_load((ROOT / "config/cases/climb.yaml").read_text(encoding="utf-8"))
         with tempfile.TemporaryDirectory() as name:
-            path = data.with_wing_mass("climb", 3.7e-5, pathlib.Path(name))
-            changed = yaml.safe_load(path.read_text(encoding="utf-8"))
-            shipped = yaml.safe_load((ROOT / "config/cases/climb.yaml").read_text(encoding="utf-8"))
+            folder = pathlib.Path(name)
+            sweep.write_cases(ROOT / "config/cases/climb.yaml", "wing/mass=3.6e-5", folder)
+            old = folder / "cases/climb_wing_mass_3.6e-5.yaml"
+            before = old.stat().st_mtime_ns
+            sweep.write_cases(ROOT / "config/cases/climb.yaml", "wing/mass=3.6e-5,3.7e-5", folder)
+            self.assertEqual(old.stat().st_mtime_ns, before)  # not touched: Snakemake would fly it again
+            changed = yaml.safe_load((folder / "cases/climb_wing_mass_3.7e-5.yaml").read_text(encoding="utf-8"))
             self.assertEqual(changed["insect"].pop("wing"), {"mass": 3.7e-5})
-            self.assertEqual(changed.pop("name"), "climb_37.00mg")
+            self.assertEqual(changed.pop("name"), "climb_wing_mass_3.7e-5")
             shipped.pop("name")
             self.assertEqual(changed, shipped)
 

@@ -22,6 +22,9 @@ struct CoupledModel {
   Eigen::Vector3d wind_I = Eigen::Vector3d::Zero();  ///< uniform wind, NED [m/s]
   double t_start = 0.0;      ///< time of step 0 [s]
   std::uint32_t steps = 0;   ///< of the whole run
+  /// First free step, which a released insect flies at constant acceleration: what the prescribed
+  /// motion did before does not belong to its flight. 0: the motion's accelerations do.
+  std::uint32_t release = 0;
   int surface_every = 0;     ///< committed steps between pictures of the wing's pressure (0: never)
   int fields_every = 0;      ///< committed steps between answers with the whole flow (0: never)
   int vortices_every = 0;    ///< committed steps between pictures of the vortices (0: never)
@@ -33,6 +36,9 @@ struct CoupledModel {
   JointAngles angles(double t, const Coordinate& theta_R) const;
   /// Every coordinate as the prescribed motion has it.
   Interface prescribed(double t) const;
+  /// Level n as Newmark leaves it for `step`, level n+1: in the release step with the accelerations
+  /// of `next`, an error of second order that is made once; else as committed.
+  Interface departure(std::uint32_t step, Interface committed, const Interface& next) const;
   /// Every fault at once (no motion, no time step, a bare wing with a free body, ...).
   std::vector<std::string> problems() const;
 };

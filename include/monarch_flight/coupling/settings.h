@@ -26,6 +26,8 @@ struct CouplingSettings {
   double load_tolerance = 1e-6;
   int max_sub_iterations = 60;
   int prescribed_steps = 10;      ///< every coordinate follows the prescribed motion for these first steps
+  /// Whether the motion's accelerations after them satisfy the equations of motion (CoupledModel::release).
+  bool accelerations_known = false;
   double length_scale = 1.0;      ///< mean chord, makes displacements dimensionless [m]
   std::vector<std::string> problems() const;
 };

@@ -22,8 +22,8 @@ class StepModel {
   /// `length_scale` makes displacements dimensionless [m].
   StepModel(const CoupledModel& model, double length_scale);
 
-  /// Sets the step: the committed level n and the prescribed motion at time t [s] of level n+1.
-  void begin(const Interface& committed, double t);
+  /// Sets the step: the committed level n and the prescribed motion of level n+1 = `step`.
+  void begin(const Interface& committed, std::uint32_t step);
   const Interface& prescribed() const { return prescribed_; }
   const std::array<bool, 4>& isFree() const { return free_; }
   /// Length or 1 over beta dt^2: d times it is an acceleration [m/s^2, rad/s^2].
@@ -42,6 +42,7 @@ class StepModel {
   JointAngles angles(const Coordinate& theta_R) const;
 
   CoupledModel model_;
+  std::uint32_t step_ = 0;
   std::array<bool, 4> free_;  // x, z, pitch, wing pitch
   CouplingVector scales_;
   FlightSolver flight_;

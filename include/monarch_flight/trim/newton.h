@@ -26,6 +26,9 @@ struct NewtonSettings {
   double max_step = 2.0;        ///< largest change of an unknown in one iteration
   int max_halvings = 6;         ///< of a step that does not reduce the residual
   double damping = 1e-4;        ///< of a step of the parameters (Levenberg's), targets count 1
+  /// Of the periodicity beside the targets in steps that seek both at once, for maps whose periodic
+  /// flights turn back in a parameter (multipliers near 1). 0: periodicity first, targets after it.
+  double weight = 0.0;
   double difference = 1e-3;     ///< step of the finite differences
   bool central = true;          ///< central differences, else forward
   bool broyden = false;         ///< one Jacobian by differences, rank-one updates after it
@@ -49,9 +52,11 @@ Eigen::MatrixXd differenceJacobian(const TrimFunction& f, const Eigen::VectorXd&
                                    int& evaluations);
 
 /// The full step to periodic flight (linearised) on which the parameters, within their bounds,
-/// bring the targets closest. `n` states stand in front.
+/// bring the targets closest; with settings.weight the step of least squares of both, no unknown
+/// moving by more than `limit`. `n` states stand in front.
 Eigen::VectorXd trimStep(const Eigen::MatrixXd& jacobian, const TrimResidual& residual,
-                         const Eigen::VectorXd& unknowns, const NewtonSettings& settings);
+                         const Eigen::VectorXd& unknowns, const NewtonSettings& settings,
+                         double limit);
 
 /// Newton's method with bounded steps and a backtracking line search, or Broyden's from a given
 /// `jacobian` (empty: by differences). `accepted` hears of every iteration's point. Throws

@@ -1,0 +1,27 @@
+# Flights of a sweep (scripts/sweep) side by side: a folder runs/<name> for each case file cases/<name>.yaml, then a table.
+OPTIONS = config["options"] or ""  # of scripts/fly
+NAMES = glob_wildcards("cases/{name}.yaml").name
+
+
+rule table:
+    input:
+        expand("runs/{name}/summary.json", name=NAMES),
+    output:
+        "table.csv",
+    shell:
+        "/usr/bin/python3 {config[root]}/python/sweep.py table {output} {input}"
+
+
+# A flight that fails has a summary too and is a row of the table; one that was stopped is flown again.
+rule fly:
+    input:
+        "cases/{name}.yaml",
+    output:
+        "runs/{name}/summary.json",
+    log:
+        "logs/{name}.log",
+    shell:
+        "rm -rf runs/{wildcards.name}; code=0; "
+        "{config[root]}/scripts/fly case:={input} out:=runs/{wildcards.name} in_process:=true rviz:=false"
+        " {OPTIONS} > {log} 2>&1 || code=$?; "
+        "[ $code -ne 130 ] && [ -f {output} ] || {{ tail -n 3 {log} >&2; exit 1; }}"
