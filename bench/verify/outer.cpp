@@ -51,8 +51,13 @@ Difference lastFlap(const std::vector<double>& f, const std::vector<double>& ref
 
 void curves(Report& report, double far, const char* outer, const FlapSeries& reference) {
   const FlapSeries& run = flown(far, outer);
-  Curve c{"outer_lift", "step of the third flap", "lift against open, 16 chords [N]",
-          text("%g chords, ", far) + outer, {}, {}, false};
+  Curve c{"outer_lift",
+          "step of the third flap",
+          "lift against open, 16 chords [N]",
+          text("%g chords, ", far) + outer,
+          {},
+          {},
+          false};
   for (std::size_t i = run.lift.size() - kSteps; i < run.lift.size(); ++i) {
     c.x.push_back(static_cast<double>(c.x.size()));
     c.y.push_back(run.lift[i] - reference.lift[i]);

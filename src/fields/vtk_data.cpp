@@ -56,10 +56,9 @@ void addRunData(const Case& c, const CommittedStep& step, vtkDataObject* data) {
   auto threshold = vtkSmartPointer<vtkDoubleArray>::New();
   threshold->SetName("Q_threshold");
   threshold->InsertNextValue(makeModel(c).q_threshold);
-  for (vtkDataArray* a : {static_cast<vtkDataArray*>(time.Get()),
-                          static_cast<vtkDataArray*>(threshold.Get()),
-                          static_cast<vtkDataArray*>(number.Get()),
-                          static_cast<vtkDataArray*>(body.Get())}) {
+  for (vtkDataArray* a :
+       {static_cast<vtkDataArray*>(time.Get()), static_cast<vtkDataArray*>(threshold.Get()),
+        static_cast<vtkDataArray*>(number.Get()), static_cast<vtkDataArray*>(body.Get())}) {
     data->GetFieldData()->AddArray(a);
   }
 }
@@ -120,10 +119,9 @@ struct SurfaceArrays {
     putVector(normal, i, place.vector(Vector3d::UnitZ()));
   }
   void addTo(vtkCellData* data) {
-    for (vtkFloatArray* a :
-         {pressure_dorsal.Get(), pressure_ventral.Get(), jump.Get(), cp_dorsal.Get(),
-          cp_ventral.Get(), cp_jump.Get(), friction_dorsal.Get(), friction_ventral.Get(),
-          normal.Get()}) {
+    for (vtkFloatArray* a : {pressure_dorsal.Get(), pressure_ventral.Get(), jump.Get(),
+                             cp_dorsal.Get(), cp_ventral.Get(), cp_jump.Get(),
+                             friction_dorsal.Get(), friction_ventral.Get(), normal.Get()}) {
       data->AddArray(a);
     }
   }
@@ -162,8 +160,8 @@ vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const CommittedStep& 
     pressure->SetValue(id, flow.pressure[i]);
     q->SetValue(id, flow.q[i]);
   }
-  for (vtkFloatArray* a : {velocity.Get(), vorticity.Get(), spanwise.Get(), pressure.Get(),
-                           q.Get()}) {
+  for (vtkFloatArray* a :
+       {velocity.Get(), vorticity.Get(), spanwise.Get(), pressure.Get(), q.Get()}) {
     grid->GetCellData()->AddArray(a);
   }
   addRunData(c, step, grid);
@@ -186,7 +184,8 @@ vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const PressureReference&
       for (int q = 0; q < 4; ++q) {
         const double x = f.x + (q == 1 || q == 2 ? 0.5 : -0.5) * f.dx;
         const double y = f.y + (q >= 2 ? 0.5 : -0.5) * f.dy;
-        corner[static_cast<std::size_t>(q)] = points->InsertNextPoint(place.point({x, y, 0}).data());
+        corner[static_cast<std::size_t>(q)] =
+            points->InsertNextPoint(place.point({x, y, 0}).data());
       }
       if (side == 1) std::reverse(corner.begin(), corner.end());
       cells->InsertNextCell(4, corner.data());

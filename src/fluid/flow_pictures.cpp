@@ -115,9 +115,14 @@ std::vector<FlowField::WingFace> NavierStokes::wingFaces() const {
     for (int i = 0; i < layout_.nx; ++i) {
       if (!grid_.isWing(i, j)) continue;
       const double x = grid_.x.centre[i], y = grid_.y.centre[j], a_n = acceleration_.at(2, x, y);
-      FlowField::WingFace f{float(x), float(y), float(grid_.x.width[i]), float(grid_.y.width[j]),
+      FlowField::WingFace f{float(x),
+                            float(y),
+                            float(grid_.x.width[i]),
+                            float(grid_.y.width[j]),
                             float(p.below(i, j, air_.rho, a_n)),
-                            float(p.above(i, j, air_.rho, a_n)), {0, 0}, {0, 0}};
+                            float(p.above(i, j, air_.rho, a_n)),
+                            {0, 0},
+                            {0, 0}};
       const Eigen::Vector3d upper = velocityAt(i, j, kw - 1), lower = velocityAt(i, j, kw);
       for (int c = 0; c < 2; ++c) {
         const double wall = level_n_.wall.at(c, x, y);
@@ -147,8 +152,8 @@ std::shared_ptr<const FlowField> NavierStokes::flowField() const {
     }
   }
   auto whole = std::make_shared<FlowField>();
-  for (auto part : {&FlowField::velocity, &FlowField::vorticity, &FlowField::pressure,
-                    &FlowField::q}) {
+  for (auto part :
+       {&FlowField::velocity, &FlowField::vorticity, &FlowField::pressure, &FlowField::q}) {
     (*whole).*part = gathered(slab_, mine.*part);
   }
   whole->x = grid_.x.face;

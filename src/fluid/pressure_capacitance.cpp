@@ -10,6 +10,23 @@
 #include "fluid/blas.h"
 
 namespace monarch_flight {
+namespace {
+
+/// Cholesky's factor of a positive definite matrix, in place of its lower triangle.
+void factorise(double* matrix, int n, int leading) {
+  const int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, matrix, leading);
+  if (info != 0) {
+    throw std::runtime_error("WingCapacitance: Cholesky failed at face " + std::to_string(info) +
+                             " of " + std::to_string(n));
+  }
+}
+
+void invertDefinite(double* matrix, int n, int leading) {
+  factorise(matrix, n, leading);
+  LAPACKE_dpotri(LAPACK_COL_MAJOR, 'L', n, matrix, leading);
+}
+
+}  // namespace
 
 WingCapacitance::WingCapacitance(const Grid& grid, const AxisModes& x, const AxisModes& y,
                                  const WingResponse& response) {
@@ -53,13 +70,15 @@ void WingCapacitance::findNormalFaces(const Grid& grid) {
   }
   if (i1 < 0) return;
   for (Eigen::MatrixXd& box : box_) box.setZero(i1 - i0_ + 1, j1 - j0_ + 1);
-  for (int j = j0_; j <= j1; ++j) {
-    for (int i = i0_; i <= i1; ++i) {
-      if (!changed(i, j)) continue;
-      wing_faces_ += grid.isWing(i, j);
-      normal_.push_back(cell(i, j));
-      add(grid.x.width[i] * grid.y.width[j] / grid.z.gap[kw], grid.mobility.at(2, i, j, kw));
+  for (bool wing : {true, false}) {
+    for (int j = j0_; j <= j1; ++j) {
+      for (int i = i0_; i <= i1; ++i) {
+        if (!changed(i, j) || grid.isWing(i, j) != wing) continue;
+        normal_.push_back(cell(i, j));
+        add(grid.x.width[i] * grid.y.width[j] / grid.z.gap[kw], grid.mobility.at(2, i, j, kw));
+      }
     }
+    if (wing) wing_faces_ = static_cast<int>(normal_.size());
   }
 }
 
@@ -87,23 +106,26 @@ void WingCapacitance::findInPlaneFaces(const Grid& grid) {
 /// G(a, j') = sum_b phi_b(j) phi_b(j') complement(a, b), which is 1 - l g without cancellation, for
 /// sum_ab phi_ab(f) phi_ab(g) = delta_fg / area. No three-dimensional solve is needed.
 void WingCapacitance::assembleNormal(const Eigen::MatrixXd& complement, double link) {
-  const int rows = static_cast<int>(box_[0].cols()), nbx = static_cast<int>(box_[0].rows());
-  std::vector<int> first(rows + 1, 0);
-  for (int face : normal_) ++first[face / nbx + 1];
-  for (int j = 0; j < rows; ++j) first[j + 1] += first[j];
-  std::vector<Eigen::MatrixXd> x_rows(rows);  // modes (rows) by the faces of row j
-  for (int j = 0; j < rows; ++j) {
-    x_rows[j].resize(modes_x_.cols(), first[j + 1] - first[j]);
-    for (int f = first[j]; f < first[j + 1]; ++f) {
-      x_rows[j].col(f - first[j]) =
+  const int nbx = static_cast<int>(box_[0].rows()), rows = static_cast<int>(box_[0].cols());
+  std::vector<int> first(2 * rows + 1, 0);  // rows of the wing's faces, then of those beside it
+  for (std::size_t f = 0; f < normal_.size(); ++f)
+    ++first[normal_[f] / nbx + (static_cast<int>(f) < wing_faces_ ? 0 : rows) + 1];
+  for (int r = 0; r < 2 * rows; ++r) first[r + 1] += first[r];
+  std::vector<Eigen::MatrixXd> x_rows(2 * rows);  // modes (rows) by the faces of a row
+  for (int r = 0; r < 2 * rows; ++r) {
+    x_rows[r].resize(modes_x_.cols(), first[r + 1] - first[r]);
+    for (int f = first[r]; f < first[r + 1]; ++f) {
+      x_rows[r].col(f - first[r]) =
           root_[f] / std::sqrt(link) * modes_x_.row(normal_[f] % nbx).transpose();
     }
   }
-  for (int j = 0; j < rows; ++j) {
-    const Eigen::MatrixXd g = complement * modes_y_.row(j).asDiagonal() * modes_y_.transpose();
-    for (int other = 0; other <= j; ++other) {
-      inverse_.block(first[j], first[other], x_rows[j].cols(), x_rows[other].cols()).noalias() =
-          x_rows[j].transpose() * (g.col(other).asDiagonal() * x_rows[other]);
+  for (int r = 0; r < 2 * rows; ++r) {
+    if (first[r] == first[r + 1]) continue;
+    const Eigen::MatrixXd g =
+        complement * modes_y_.row(r % rows).asDiagonal() * modes_y_.transpose();
+    for (int other = 0; other <= r; ++other) {
+      inverse_.block(first[r], first[other], x_rows[r].cols(), x_rows[other].cols()).noalias() =
+          x_rows[r].transpose() * (g.col(other % rows).asDiagonal() * x_rows[other]);
     }
   }
   for (std::size_t f = 0; f < normal_.size(); ++f) inverse_(f, f) += list_diagonal_[f] - 1;
@@ -130,15 +152,31 @@ void WingCapacitance::assembleInPlane(const WingResponse& response) {
   }
 }
 
+/// In blocks S = [P, B^T; B, -D] of the wing's faces and those beside the rim, P and D positive
+/// definite. With M = D + B P^-1 B^T = L L^T and X = L^-1 B P^-1:
+/// S^-1 = [P^-1 - X^T X, .; L^-T X, -M^-1].
 void WingCapacitance::invert() {
-  const int n = static_cast<int>(root_.size());
-  std::vector<lapack_int> pivots(n);
-  int info = LAPACKE_dsytrf(LAPACK_COL_MAJOR, 'L', n, inverse_.data(), n, pivots.data());
-  if (info == 0)
-    info = LAPACKE_dsytri2(LAPACK_COL_MAJOR, 'L', n, inverse_.data(), n, pivots.data());
-  if (info != 0) {
-    throw std::runtime_error("WingCapacitance: factorisation failed at face " +
-                             std::to_string(info) + " of " + std::to_string(n));
+  const int all = static_cast<int>(root_.size()), n = wing_faces_, r = all - n;
+  double* P = inverse_.data();
+  double* B = P + n;
+  double* D = P + n + static_cast<std::ptrdiff_t>(n) * all;
+  invertDefinite(P, n, all);
+  if (r == 0) return;
+  Eigen::MatrixXd X(r, n), M(r, r);
+  cblas_dsymm(CblasColMajor, CblasRight, CblasLower, r, n, 1.0, P, all, B, all, 0.0, X.data(), r);
+  M = -inverse_.bottomRightCorner(r, r);
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, r, r, n, 1.0, X.data(), r, B, all, 1.0,
+              M.data(), r);
+  factorise(M.data(), r, r);
+  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, r, n, 1.0, M.data(),
+              r, X.data(), r);
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, r, -1.0, X.data(), r, 1.0, P, all);
+  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, r, n, 1.0, M.data(),
+              r, X.data(), r);
+  inverse_.bottomLeftCorner(r, n) = X;
+  LAPACKE_dpotri(LAPACK_COL_MAJOR, 'L', r, M.data(), r);
+  for (int c = 0; c < r; ++c) {
+    for (int q = c; q < r; ++q) D[q + static_cast<std::ptrdiff_t>(c) * all] = -M(q, c);
   }
 }
 

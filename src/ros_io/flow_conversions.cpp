@@ -18,9 +18,9 @@ WholeFlow toMessage(const FlowField& flow) {
   out.pressure = flow.pressure;
   out.q = flow.q;
   for (const FlowField::WingFace& f : flow.wing) {
-    out.wing.insert(out.wing.end(), {f.x, f.y, f.dx, f.dy, f.p_upper, f.p_lower,
-                                     f.friction_upper[0], f.friction_upper[1],
-                                     f.friction_lower[0], f.friction_lower[1]});
+    out.wing.insert(out.wing.end(),
+                    {f.x, f.y, f.dx, f.dy, f.p_upper, f.p_lower, f.friction_upper[0],
+                     f.friction_upper[1], f.friction_lower[0], f.friction_lower[1]});
   }
   return out;
 }
@@ -36,8 +36,7 @@ std::shared_ptr<const FlowField> fromMessage(const WholeFlow& flow) {
   out->q = flow.q;
   for (std::size_t i = 0; i + kFaceNumbers <= flow.wing.size(); i += kFaceNumbers) {
     const float* f = flow.wing.data() + i;
-    out->wing.push_back(
-        {f[0], f[1], f[2], f[3], f[4], f[5], {f[6], f[7]}, {f[8], f[9]}});
+    out->wing.push_back({f[0], f[1], f[2], f[3], f[4], f[5], {f[6], f[7]}, {f[8], f[9]}});
   }
   return out;
 }

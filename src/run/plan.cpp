@@ -94,9 +94,9 @@ void planTime(const Case& c, long unknowns, RunPlan& plan) {
   plan.evaluations = prescribed ? 1.0 : kEvaluationsFree;
   const double cells = static_cast<double>(plan.cells);
   plan.setup_s = capacitanceSetup(unknowns);
-  plan.step_s = parallelShare(plan.ranks) * cells *
-                    (cost.first + (plan.evaluations - 1) * cost.repeated) +
-                plan.evaluations * capacitanceEvaluation(unknowns);
+  plan.step_s =
+      parallelShare(plan.ranks) * cells * (cost.first + (plan.evaluations - 1) * cost.repeated) +
+      plan.evaluations * capacitanceEvaluation(unknowns);
 }
 
 std::string bytesText(double bytes) {
@@ -138,8 +138,8 @@ void requirePossible(const RunPlan& plan) {
   if (plan.memory > plan.memory_left) {
     faults.push_back("grid: " + std::to_string(plan.cells) + " cells and " +
                      std::to_string(plan.wing_faces) + " faces of the wing need " +
-                     bytesText(plan.memory) + " of memory, must be <= " +
-                     bytesText(plan.memory_left) +
+                     bytesText(plan.memory) +
+                     " of memory, must be <= " + bytesText(plan.memory_left) +
                      ", what this machine has left; lower grid/cells_per_chord or "
                      "grid/far_field, or use a larger machine");
   }

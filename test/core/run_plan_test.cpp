@@ -1,6 +1,4 @@
 // What is told of a run before it starts, against the grid and the run themselves.
-#include "monarch_flight/run/plan.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "monarch_flight/fluid/flow_cost.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/federation.h"
+#include "monarch_flight/run/plan.h"
 
 namespace monarch_flight {
 namespace {
@@ -56,8 +55,9 @@ TEST(Plan, CourantNumbersGrowWithTheStepAndTheResolution) {
   c.time.dt *= 2;
   c.time.steps /= 2;
   EXPECT_NEAR(2 * plan.courant_tip, planRun(c, 1).courant_tip, 0.01 * plan.courant_tip);
-  EXPECT_NEAR(c.air.rho * plan.courant_tip * plan.in_plane / (0.5 * c.time.dt) * plan.chord /
-                  c.air.mu, plan.reynolds, 0.01 * plan.reynolds);
+  EXPECT_NEAR(
+      c.air.rho * plan.courant_tip * plan.in_plane / (0.5 * c.time.dt) * plan.chord / c.air.mu,
+      plan.reynolds, 0.01 * plan.reynolds);
 }
 
 TEST(Plan, TheFlowStaysBelowTheCourantNumberExpected) {
@@ -94,8 +94,7 @@ TEST(Plan, TimeIsThatOfARun) {
     flow->evaluate(m);
     flow->commit();
     best = std::min(
-        best,
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
   EXPECT_EQ(1.0, plan.evaluations);
   EXPECT_LT(plan.step_s, 2.5 * best);  // a shared machine: both are measured at different times

@@ -44,10 +44,13 @@ Vector3d tuple(vtkDataArray* a, vtkIdType i) { return Vector3d(a->GetTuple3(i));
 class Fields : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder() = (fs::temp_directory_path() / ("monarch_fields_" + std::to_string(getpid()))).string();
+    folder() =
+        (fs::temp_directory_path() / ("monarch_fields_" + std::to_string(getpid()))).string();
     Case& c = theCase();
-    c = loadCase("tethered_fwuav", {{"flaps", "0.04"}, {"steps_per_flap", "100"},
-                                    {"record", "false"}, {"fields_every", "2"}}, CONFIG_DIR);
+    c = loadCase(
+        "tethered_fwuav",
+        {{"flaps", "0.04"}, {"steps_per_flap", "100"}, {"record", "false"}, {"fields_every", "2"}},
+        CONFIG_DIR);
     c.grid.cells_per_chord = 6;
     c.grid.far_field = 3;
     c.air.wind_I = {0.3, -0.2, 0.1};
@@ -59,9 +62,18 @@ class Fields : public ::testing::Test {
   }
   static void TearDownTestSuite() { fs::remove_all(folder()); }
 
-  static std::string& folder() { static std::string f; return f; }
-  static Case& theCase() { static Case c; return c; }
-  static Keeper& keeper() { static Keeper k; return k; }
+  static std::string& folder() {
+    static std::string f;
+    return f;
+  }
+  static Case& theCase() {
+    static Case c;
+    return c;
+  }
+  static Keeper& keeper() {
+    static Keeper k;
+    return k;
+  }
   static const CommittedStep& last() { return keeper().steps.back(); }
   static WingMotion motion() {
     return rightWingMotion(theCase().insect, last().interface.body, last().angles);
@@ -115,8 +127,7 @@ TEST_F(Fields, TheValuesAreTheSolversTurnedIntoTheWorld) {
     const Vector3d expected = world(R * v + theCase().air.wind_I);
     EXPECT_LT((tuple(data->GetArray("velocity"), i) - expected).norm(), 1e-6);
     EXPECT_LT((tuple(data->GetArray("vorticity"), i) - world(R * w)).norm(), 1e-6 * (1 + w.norm()));
-    EXPECT_EQ(flow.vorticity[3 * i + 1],
-              float(data->GetArray("spanwise_vorticity")->GetTuple1(i)));
+    EXPECT_EQ(flow.vorticity[3 * i + 1], float(data->GetArray("spanwise_vorticity")->GetTuple1(i)));
   }
   EXPECT_GT(fastest, 0.5);  // the wing has moved the air
 }
@@ -131,8 +142,8 @@ TEST_F(Fields, TheWingsCarryTheLoads) {
     vtkPoints* p = s->GetCell(i)->GetPoints();
     const Vector3d a(p->GetPoint(0)), b(p->GetPoint(1)), d(p->GetPoint(3));
     const double area = (b - a).cross(d - a).norm();
-    const Vector3d push = area * data->GetArray("pressure_jump")->GetTuple1(i) *
-                          tuple(data->GetArray("normal"), i);
+    const Vector3d push =
+        area * data->GetArray("pressure_jump")->GetTuple1(i) * tuple(data->GetArray("normal"), i);
     if (i >= faces) {
       left += push;
       continue;
@@ -167,8 +178,8 @@ TEST_F(Fields, TheSeriesNamesEveryFileWithItsTime) {
   text << file.rdbuf();
   std::vector<std::string> found;
   const std::string all = text.str();
-  for (const char* name : {"flow_00000002.vts", "wing_00000002.vtp", "flow_00000004.vts",
-                           "wing_00000004.vtp"}) {
+  for (const char* name :
+       {"flow_00000002.vts", "wing_00000002.vtp", "flow_00000004.vts", "wing_00000004.vtp"}) {
     EXPECT_NE(std::string::npos, all.find(name)) << all;
     EXPECT_TRUE(fs::exists(folder() + "/" + name));
   }

@@ -16,9 +16,9 @@ struct FlowField {
 
   /// One face of the wing. Friction is what the air of a side drags the wing by, along x and y.
   struct WingFace {
-    float x, y, dx, dy;                            ///< centre and size [m]
-    float p_upper, p_lower;                        ///< dorsal (-z) and ventral (+z) side [Pa]
-    float friction_upper[2], friction_lower[2];    ///< [Pa]
+    float x, y, dx, dy;                          ///< centre and size [m]
+    float p_upper, p_lower;                      ///< dorsal (-z) and ventral (+z) side [Pa]
+    float friction_upper[2], friction_lower[2];  ///< [Pa]
   };
   std::vector<WingFace> wing;
 

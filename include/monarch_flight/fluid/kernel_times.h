@@ -19,9 +19,9 @@ enum class Kernel : std::size_t {
   kCount
 };
 constexpr std::size_t kKernels = static_cast<std::size_t>(Kernel::kCount);
-constexpr const char* kKernelNames[kKernels] = {
-    "turning",    "momentum_x_y", "momentum_z", "net_outflow", "transforms",
-    "columns",    "capacitance",  "loads",      "projection"};
+constexpr const char* kKernelNames[kKernels] = {"turning",     "momentum_x_y", "momentum_z",
+                                                "net_outflow", "transforms",   "columns",
+                                                "capacitance", "loads",        "projection"};
 
 /// Wall time of each kernel [s].
 using KernelTimes = std::array<double, kKernels>;

@@ -12,17 +12,17 @@ struct RunPlan {
   double chord = 0.0, span = 0.0;                      ///< mean chord; span [m]
   double cells_per_chord = 0.0, cells_per_span = 0.0;  ///< over the wing
   double in_plane = 0.0, first_height = 0.0;           ///< smallest spacings [m]
-  double stokes_layer = 0.0;     ///< sqrt(2 nu / omega) of the flapping; 0 without a period [m]
-  double cells_in_layer = 0.0;   ///< that it holds, counted from the wing
-  double reynolds = 0.0;         ///< of the peak tip speed and the mean chord
+  double stokes_layer = 0.0;    ///< sqrt(2 nu / omega) of the flapping; 0 without a period [m]
+  double cells_in_layer = 0.0;  ///< that it holds, counted from the wing
+  double reynolds = 0.0;        ///< of the peak tip speed and the mean chord
   double courant_tip = 0.0, courant_body = 0.0;  ///< peak speeds of tip and root x dt / in_plane
-  double courant_flow = 0.0;     ///< expected of the flow round the wing: what the solver watches
+  double courant_flow = 0.0;  ///< expected of the flow round the wing: what the solver watches
   double courant_limit = 0.0;
-  double memory = 0.0, memory_left = 0.0;        ///< needed; available on this machine [bytes]
+  double memory = 0.0, memory_left = 0.0;  ///< needed; available on this machine [bytes]
   int ranks = 1;
   long steps = 0;
-  double evaluations = 0.0;                      ///< of the air in a step, expected
-  double setup_s = 0.0, step_s = 0.0;            ///< expected wall time [s]
+  double evaluations = 0.0;            ///< of the air in a step, expected
+  double setup_s = 0.0, step_s = 0.0;  ///< expected wall time [s]
   double run_s() const { return setup_s + steps * step_s; }
 };
 
