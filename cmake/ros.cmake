@@ -7,8 +7,8 @@ if(NOT DEFINED Python3_EXECUTABLE AND DEFINED PYTHON_EXECUTABLE)
   set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE} CACHE FILEPATH "The same, for ament's modules")
 endif()
 
-set(ROS_PACKAGES actionlib actionlib_msgs diagnostic_msgs diagnostic_updater geometry_msgs nav_msgs rosbag roscpp rosgraph_msgs
-  sensor_msgs std_msgs std_srvs tf2_msgs visualization_msgs)
+set(ROS_PACKAGES actionlib actionlib_msgs diagnostic_msgs diagnostic_updater geometry_msgs nav_msgs rosbag roscpp
+  rosgraph_msgs roslz4 sensor_msgs std_msgs std_srvs tf2_msgs topic_tools visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS message_generation ${ROS_PACKAGES})
 
 add_message_files(DIRECTORY msg FILES CouplingKey.msg FlightState.msg Hello.msg IgnoredCounts.msg InterfaceState.msg
@@ -31,6 +31,7 @@ include_directories(SYSTEM ${catkin_INCLUDE_DIRS})
 
 file(GLOB ros_sources CONFIGURE_DEPENDS src/ros_io/*.cpp src/viz/*.cpp)
 add_library(monarch_ros_io SHARED ${ros_sources})
+target_include_directories(monarch_ros_io PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 #catkin_lint: ignore_once external_directory
 target_include_directories(monarch_ros_io SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include)
 target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES} PRIVATE OpenSSL::Crypto ${CMAKE_DL_LIBS})

@@ -52,7 +52,7 @@ class SolverNode:
         self.role, self.solver = role, solver
         self.place = "%s/%s/" % (NAMESPACE, role)
         self.lock = threading.Lock()  # each connection has a thread of its own
-        self.greeting = self.cache = self.case = None
+        self.greeting = self.cache = self.kept = self.case = None
         self.case_known, self.over = threading.Event(), threading.Event()
         self.refused = 0
         rospy.init_node(role, disable_signals=True)
@@ -106,6 +106,10 @@ class SolverNode:
         elif key.phase == CouplingKey.ABORT:
             self.answer(request, ParticipantReply())
             self.over.set()
+        elif key.phase == CouplingKey.CHECKPOINT:  # may come within the next step
+            if self.kept is None or order(self.kept.key) != order(key):
+                self.kept = self.compute(request)
+            self.answer(request, self.kept)
         elif self.cache is None or order(key) > order(self.cache.key):
             begin = time.monotonic()
             reply = self.compute(request)
@@ -128,10 +132,29 @@ class SolverNode:
                 return self.solver.start(self.resolved_case(), request)
             if request.key.phase == CouplingKey.ITERATE:
                 return self.solver.iterate(request)
-            return self.solver.commit(request)
+            if request.key.phase == CouplingKey.COMMIT:
+                return self.solver.commit(request)
+            return self.keep(request)
         except Exception as e:  # whatever it is, the person hears of it from the coordinator
             return ParticipantReply(interface=request.interface,
                                     error="%s: %s" % (type(e).__name__, e))
+
+    def keep(self, request):
+        """CHECKPOINT and RESTORE, by `save` and `restore` (bytes) of a solver that has a state. The
+        folder comes from a parameter of the coordinator, never from a message."""
+        key, restoring = request.key, request.key.phase == CouplingKey.RESTORE
+        folder = "step_%010d%s" % (key.step, "" if restoring else ".active")
+        path = os.path.join(rospy.get_param(NAMESPACE + "/checkpoints"), folder,
+                            self.role + ".state")
+        if restoring:
+            with open(path, "rb") as f:
+                getattr(self.solver, "restore", lambda state: None)(f.read())
+        else:
+            with open(path, "wb") as f:
+                f.write(getattr(self.solver, "save", bytes)())
+                f.flush()
+                os.fsync(f.fileno())
+        return ParticipantReply(interface=request.interface)
 
     def resolved_case(self):
         """The coordinator publishes it, latched, before it asks for anything."""

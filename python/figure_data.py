@@ -2,6 +2,7 @@
 import csv
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -39,9 +40,16 @@ def flight(folder):
     return dict(zip(("t", "x", "z", "theta_B", "theta_R", "phi", "FX", "FZ"), np.array(rows).T))
 
 
+class CaseLoader(yaml.SafeLoader):
+    """YAML 1.2: 9e-05 is a number, without a point, too."""
+
+
+CaseLoader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"[-+]?[0-9]+(\.[0-9]*)?[eE][-+]?[0-9]+$"), list("-+0123456789"))
+
+
 def case_of(folder):
     with open(folder / "case.yaml", encoding="utf-8") as file:
-        return yaml.safe_load(file)
+        return yaml.load(file, CaseLoader)
 
 
 def run(folder, case, *options):

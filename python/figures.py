@@ -181,6 +181,8 @@ def figure_8(settings):
     f, insect = case["motion"]["frequency"], case["insect"]
     mass = insect["body"]["mass"] + insect["abdomen"]["mass"] + 2 * insect["wing"]["mass"]
     t, s = flight["t"] * f, real["columns"]["t"] * real["series"]["theta_B"]["frequency"]
+    shown = t <= s[-1]
+    flight, t = {k: v[shown] for k, v in flight.items()}, t[shown]
     figure, grid = plt.subplots(2, 2, sharex=True, figsize=(11, 6.5), constrained_layout=True)
     ours, theirs = data.body_forces(flight), data.measured_forces(real, mass)
     for axes, title, a, b in zip(grid[0], ("a) thrust", "b) lift"), ours, theirs):
@@ -199,7 +201,7 @@ def figure_8(settings):
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.3 * (high - low))  # room for the legend
         axes.legend(fontsize=7, loc="upper right")
-    figure.suptitle(f"Free flight, {settings.title()}")
+    figure.suptitle(f"{case['name']}, {case['fluid']['solver'].replace('_', ' ')} air")
     return figure
 
 

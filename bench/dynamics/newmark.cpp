@@ -94,7 +94,8 @@ void addOrder(const std::string& name, const Case& c,
   constexpr int kSteps[] = {250, 500, 1000, 2000};
   double before = 0.0, order = 0.0, error = 0.0;
   for (int steps : kSteps) {
-    error = (coupledFlap(c, motion, known, steps) - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff();
+    error =
+        (coupledFlap(c, motion, known, steps) - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff();
     order = std::log2(before / error);
     rows.push_back({"newmark", name + ": largest relative error after a flap",
                     std::to_string(steps) + " steps a flap", error, 0.0, error, kStated});

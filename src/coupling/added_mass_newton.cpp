@@ -114,4 +114,17 @@ void AddedMassNewton::endStep(const Trial& last) {
   missed_ = advances_ > 2;
 }
 
+void AddedMassNewton::memory(StateVisitor& state) {
+  bool known = operator_.has_value();
+  LoadOperator at_hand = operator_.value_or(LoadOperator());
+  state("operator_known", known);
+  state("operator_velocity", at_hand.velocity);
+  state("operator_acceleration", at_hand.acceleration);
+  state("operator_fetched", fetched_);
+  state("operator_missed", missed_);
+  if (!state.loading()) return;
+  operator_.reset();
+  if (known) operator_ = at_hand;
+}
+
 }  // namespace monarch_flight

@@ -60,28 +60,35 @@ Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& sett
       accelerator_(makeAccelerator(settings, step_model_)),
       cautious_(makeAccelerator(cautious(settings), step_model_)) {}
 
-CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, RunControl& control) {
+CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, RunControl& control,
+                                Keeper* keeper) {
+  sinks_ = sinks;
+  keeper_ = keeper;
   CoupledOutcome outcome;
-  std::uint32_t step = 0;
+  std::uint32_t step = 0;  // the last one committed
   try {
-    start(sinks);
-    for (step = 1; step <= model_.steps; ++step) {
+    step = start();
+    while (step < model_.steps) {
       try {
-        CommittedStep committed = advance(step, control);
-        deliver(sinks, committed);
+        CommittedStep committed = advance(step + 1, control);
+        step = committed.step;
+        deliver(committed);
+        if (keeper_ && keeper_->due(step, step == model_.steps)) keep(step);
       } catch (const SetBack&) {
-        startAgain(sinks);
+        startAgain();
         step = 0;
       }
     }
     outcome.complete = true;
   } catch (const Interrupted&) {
-    outcome.failure = "interrupted in step " + std::to_string(step) + "; step " +
-                      std::to_string(step - 1) + " is the last one committed";
+    outcome.failure = "interrupted in step " + std::to_string(step + 1) + "; step " +
+                      std::to_string(step) + " is the last one committed" + rescue(step);
+  } catch (const StepFailure& e) {
+    outcome.failure = e.what() + rescue(step);
   } catch (const std::exception& e) {
     outcome.failure = e.what();
   }
-  abort(std::min(step, model_.steps));
+  abort(std::min(step + 1, model_.steps));
   for (StepSink* sink : sinks) {
     try {
       sink->onEnd(outcome.failure);
@@ -93,7 +100,8 @@ CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, RunControl&
   return outcome;
 }
 
-void Coordinator::start(const std::vector<StepSink*>& sinks) {
+/// Returns the step that the run goes on from, 0 for a new one.
+std::uint32_t Coordinator::start() {
   const auto begin = Clock::now();
   CommittedStep out;
   out.t = model_.time(0);
@@ -113,35 +121,45 @@ void Coordinator::start(const std::vector<StepSink*>& sinks) {
   force_scale_ = moment_scale_ = 0.0;
   increment_scales_.setZero();
   history_.fill(CouplingVector::Zero());
+  if (keeper_ && keeper_->resumed()) {
+    resume();
+    return *keeper_->resumed();
+  }
   out.interface = request.interface;
   finish(Loads(), out);
   out.coupling_s = ownSeconds(begin, out);
   outputs_s_ = 0.0;
-  deliver(sinks, out);
+  deliver(out);
+  return 0;
 }
 
-void Coordinator::deliver(const std::vector<StepSink*>& sinks, CommittedStep& step) {
+void Coordinator::deliver(CommittedStep& step) {
   const auto begin = Clock::now();
   step.outputs_s = outputs_s_;
-  for (StepSink* sink : sinks) sink->onStep(step);
+  for (StepSink* sink : sinks_) sink->onStep(step);
   outputs_s_ += secondsSince(begin);
 }
 
-void Coordinator::startAgain(const std::vector<StepSink*>& sinks) {
+void Coordinator::startAgain() {
   ++resets_;
-  for (StepSink* sink : sinks) sink->onReset();
-  start(sinks);
+  for (StepSink* sink : sinks_) sink->onReset();
+  if (keeper_) keeper_->reset();
+  start();
 }
 
 /// Asks who leads the run before the next sub-iteration of `out`.
 void Coordinator::heed(RunControl& control, const CommittedStep& out) {
-  switch (control.next(out.step, static_cast<std::uint32_t>(out.iterations.size()))) {
-    case RunControl::Order::kGoOn:
-      return;
-    case RunControl::Order::kStop:
-      throw Interrupted();
-    case RunControl::Order::kReset:
-      throw SetBack();
+  while (true) {
+    switch (control.next(out.step, static_cast<std::uint32_t>(out.iterations.size()))) {
+      case RunControl::Order::kGoOn:
+        return;
+      case RunControl::Order::kStop:
+        throw Interrupted();
+      case RunControl::Order::kReset:
+        throw SetBack();
+      case RunControl::Order::kCheckpoint:
+        keepBeforeStep(out.step);
+    }
   }
 }
 
@@ -151,14 +169,19 @@ CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
   out.step = step;
   out.t = model_.time(step);
   out.prescribed = static_cast<int>(step) <= settings_.prescribed_steps || model_.free.count() == 0;
+  before_.take([this](StateVisitor& state) { memory(state); });
   step_model_.begin(committed_, step);
 
   Evaluation last;
-  if (out.prescribed) {
-    heed(control, out);
-    last = evaluate(step_model_.prescribed(), false, out);
-  } else {
-    solve(control, last, out);
+  try {
+    if (out.prescribed) {
+      heed(control, out);
+      last = evaluate(step_model_.prescribed(), false, out);
+    } else {
+      solve(control, last, out);
+    }
+  } catch (const NumericalError& e) {
+    throw StepFailure(e.what());
   }
   commit(last, out);
   out.coupling_s = ownSeconds(begin, out);

@@ -26,6 +26,24 @@ InterfaceValues interfaceValues(const Interface& interface) {
   return values;
 }
 
+Interface interfaceOf(const InterfaceValues& values) {
+  const auto v = [&values](int first) { return Eigen::Vector3d(values.segment<3>(first)); };
+  const auto coordinate = [&values](int first) {
+    return Coordinate{values[first], values[first + 1], values[first + 2]};
+  };
+  Interface interface;
+  BodyState& body = interface.body;
+  body.x = v(0);
+  body.v = v(3);
+  body.a = v(6);
+  for (int i = 0; i < 3; ++i) body.R_IB.col(i) = v(9 + 3 * i);
+  body.Omega_B = v(18);
+  body.Omega_dot_B = v(21);
+  body.pitch = coordinate(24);
+  interface.theta_R = coordinate(27);
+  return interface;
+}
+
 bool same(const Interface& a, const Interface& b) {
   return interfaceValues(a) == interfaceValues(b);
 }

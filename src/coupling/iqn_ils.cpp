@@ -72,4 +72,20 @@ Proposal IqnIls::advance(const Trial& trial) {
 
 void IqnIls::endStep(const Trial& last) { learn(last); }
 
+void IqnIls::memory(StateVisitor& state) {
+  std::array<Eigen::Matrix<double, 9, 1>, kCapacity> rows;
+  for (std::size_t i = 0; i < kCapacity; ++i) {
+    const Difference& d = differences_[i];
+    const bool used = static_cast<int>(i) < count_;
+    rows[i].setZero();
+    if (used) rows[i] << d.residual, d.answer, static_cast<double>(d.age);
+  }
+  state("iqn_ils_count", count_);
+  state.numbers("iqn_ils_differences", rows[0].data(), 9 * kCapacity);
+  if (!state.loading()) return;
+  for (std::size_t i = 0; i < kCapacity; ++i) {
+    differences_[i] = {rows[i].head<4>(), rows[i].segment<4>(4), static_cast<int>(rows[i][8])};
+  }
+}
+
 }  // namespace monarch_flight

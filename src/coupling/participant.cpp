@@ -24,6 +24,10 @@ const char* phaseName(Phase phase) {
       return "COMMIT";
     case Phase::kAbort:
       return "ABORT";
+    case Phase::kCheckpoint:
+      return "CHECKPOINT";
+    case Phase::kRestore:
+      return "RESTORE";
   }
   return "unknown phase";
 }

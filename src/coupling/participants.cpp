@@ -41,6 +41,13 @@ void FluidParticipant::onCommit(const Request& request, Reply& reply) {
   reply.vortices = fluid_->vortices(model().q_threshold, model().vortex_limit);
 }
 
+void FluidParticipant::memory(StateVisitor& state) {
+  std::vector<char> air;
+  if (!state.loading()) air = fluid_->save();
+  state.bytes("air", air);
+  if (state.loading()) fluid_->restore(air);
+}
+
 bool FluidParticipant::sameGuess(const Interface& answered, const Interface& committed) const {
   return same(answered, committed);
 }

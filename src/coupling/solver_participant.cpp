@@ -61,6 +61,9 @@ void SolverParticipant::answer(const Request& request, Reply& reply) {
       return commit(request, reply);
     case Phase::kAbort:
       return abort(request);
+    case Phase::kCheckpoint:
+    case Phase::kRestore:
+      throw Refusal("this participant keeps no checkpoints");
   }
   throw Refusal("unknown phase");
 }
@@ -76,23 +79,46 @@ void SolverParticipant::start(const Request& request, Reply& reply) {
 }
 
 void SolverParticipant::abort(const Request& request) {
-  requireRun(request);
+  requireRun(request.key);
   running_ = false;
 }
 
-void SolverParticipant::requireRun(const Request& request) const {
+void SolverParticipant::requireRun(const ExchangeKey& key) const {
   if (!running_) throw Refusal("no run has been started");
-  if (request.key.run != run_) {
-    throw Refusal("belongs to run " + std::to_string(request.key.run) + ", not to run " +
+  if (key.run != run_) {
+    throw Refusal("belongs to run " + std::to_string(key.run) + ", not to run " +
                   std::to_string(run_));
   }
 }
 
 void SolverParticipant::requireNextStep(const Request& request) const {
-  requireRun(request);
+  requireRun(request.key);
   if (request.key.step != step_ + 1) {
     throw Refusal("the committed step is " + std::to_string(step_) + ", so only step " +
                   std::to_string(step_ + 1) + " can follow");
+  }
+}
+
+void SolverParticipant::checkpoint(const ExchangeKey& key, StateVisitor& state) {
+  requireRun(key);
+  if (key.step != step_) {
+    throw Refusal("the committed step is " + std::to_string(step_) + ", not " +
+                  std::to_string(key.step));
+  }
+  state("step", step_);
+  state("committed", committed_);
+  memory(state);
+}
+
+void SolverParticipant::restore(const ExchangeKey& key, StateVisitor& state) {
+  requireRun(key);
+  answered_ = false;
+  state("step", step_);
+  state("committed", committed_);
+  memory(state);
+  if (key.step != step_) {
+    throw Refusal("the state is of step " + std::to_string(step_) + ", not " +
+                  std::to_string(key.step));
   }
 }
 

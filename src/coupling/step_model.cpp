@@ -44,8 +44,8 @@ Interface StepModel::interface(const CouplingVector& increments) const {
   next.theta_R.qdd = a(3);
   const Interface from = model_.departure(step_, committed_, next);
   next.body = advancedBody(from.body, prescribed_.body, model_.free, model_.newmark, a.head<3>());
-  next.theta_R = model_.free.wing_pitch ? model_.newmark.advance(from.theta_R, a(3))
-                                        : prescribed_.theta_R;
+  next.theta_R =
+      model_.free.wing_pitch ? model_.newmark.advance(from.theta_R, a(3)) : prescribed_.theta_R;
   return next;
 }
 

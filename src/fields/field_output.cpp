@@ -38,16 +38,15 @@ std::string written(const Data& data, const std::string& path) {
 
 class FieldOutput : public StepSink {
  public:
-  FieldOutput(const Case& c, const std::string& folder)
-      : case_(c), folder_(folder), reference_(pressureReference(c)) {}
+  FieldOutput(const Case& c, const std::string& folder, StateVisitor* resumed)
+      : case_(c), folder_(folder), reference_(pressureReference(c)) {
+    if (resumed != nullptr && resumed->has("fields_count")) onCheckpoint(*resumed);
+  }
 
   void onStep(const CommittedStep& step) override {
     if (!step.flow) return;
     makeFolder();
-    char number[16];
-    std::snprintf(number, sizeof number, "%08u", step.step);
-    const Entry entry{step.t, std::string("flow_") + number + ".vts",
-                      std::string("wing_") + number + ".vtp"};
+    const Entry entry(step.step, step.t);
     const std::string flow = folder_ + "/" + entry.flow, wing = folder_ + "/" + entry.wing;
     writeWhole(flow, written<vtkXMLStructuredGridWriter>(flowGrid(case_, step), flow));
     writeWhole(wing, written<vtkXMLPolyDataWriter>(wingSurface(case_, reference_, step), wing));
@@ -65,10 +64,33 @@ class FieldOutput : public StepSink {
     entries_.clear();
   }
 
+  /// The list of files; also the way back, for a run that goes on.
+  void onCheckpoint(StateVisitor& state) override {
+    std::size_t count = entries_.size();
+    state("fields_count", count);
+    Eigen::MatrixXd rows(2, count);
+    for (std::size_t i = 0; !state.loading() && i < count; ++i) {
+      rows(0, static_cast<Eigen::Index>(i)) = entries_[i].step;
+      rows(1, static_cast<Eigen::Index>(i)) = entries_[i].t;
+    }
+    state("fields_steps_and_times", rows);
+    for (std::size_t i = 0; state.loading() && i < count; ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      entries_.emplace_back(static_cast<std::uint32_t>(rows(0, column)), rows(1, column));
+    }
+  }
+
   void onEnd(const std::string&) override {}
 
  private:
   struct Entry {
+    Entry(std::uint32_t step_in, double t_in) : step(step_in), t(t_in) {
+      char number[16];
+      std::snprintf(number, sizeof number, "%08u", step);
+      flow = std::string("flow_") + number + ".vts";
+      wing = std::string("wing_") + number + ".vtp";
+    }
+    std::uint32_t step;
     double t;
     std::string flow, wing;
   };
@@ -114,8 +136,9 @@ class FieldOutput : public StepSink {
 
 }  // namespace
 
-std::unique_ptr<StepSink> makeFieldOutput(const Case& c, const std::string& folder) {
-  return std::make_unique<FieldOutput>(c, folder);
+std::unique_ptr<StepSink> makeFieldOutput(const Case& c, const std::string& folder,
+                                          StateVisitor* resumed) {
+  return std::make_unique<FieldOutput>(c, folder, resumed);
 }
 
 }  // namespace monarch_flight

@@ -3,7 +3,7 @@
 
 namespace monarch_flight {
 
-std::unique_ptr<StepSink> makeFieldOutput(const Case& c, const std::string&) {
+std::unique_ptr<StepSink> makeFieldOutput(const Case& c, const std::string&, StateVisitor*) {
   throw InputError("output/fields_every = " + std::to_string(c.output.fields_every) +
                    ": this build has no VTK, which writes the fields; must be 0, or run "
                    "scripts/install fields and build again");

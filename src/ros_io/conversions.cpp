@@ -37,7 +37,7 @@ std::string problem(std::uint32_t protocol, const CouplingKey& key) {
     return "protocol version " + std::to_string(protocol) + " instead of " +
            std::to_string(kProtocolVersion);
   }
-  if (key.phase > CouplingKey::ABORT) return "unknown phase " + std::to_string(key.phase);
+  if (key.phase > CouplingKey::RESTORE) return "unknown phase " + std::to_string(key.phase);
   return "";
 }
 

@@ -57,7 +57,9 @@ int CoordinatorNode::run() {
 
 int CoordinatorNode::fly() {
   RosOutput topics(node_);
-  FlightRun run(case_, outputDirectory(parameters_, case_), {&topics});
+  const std::string out = outputDirectory(parameters_, case_);
+  FlightRun run(case_, out, !parameters_.resume.empty(), {&topics});
+  node_.setParam(kCheckpointsKey, checkpointFolder(out));
   FlightControl control(
       node_, case_.time, parameters_.paused, [this] { keepAlive(); }, stop_);
   run.addSink(control);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "monarch_flight/ros_io/conversions.h"
 #include "monarch_flight/ros_io/frames.h"
@@ -227,11 +228,38 @@ void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& sta
   }
 }
 
-MessageSink::MessageSink(const Case& c, std::vector<MessageOutput*> outputs)
+void FlightMessages::memory(StateVisitor& state) {
+  namespace ser = ros::serialization;
+  if (!state.has("path")) return;  // nothing was published before
+  state("path_stride", path_stride_);
+  std::vector<char> bytes(state.loading() ? 0 : ser::serializationLength(path_));
+  if (!state.loading()) {
+    ser::OStream out(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                     static_cast<std::uint32_t>(bytes.size()));
+    ser::serialize(out, path_);
+  }
+  state.bytes("path", bytes);
+  if (state.loading()) {
+    ser::IStream in(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                    static_cast<std::uint32_t>(bytes.size()));
+    ser::deserialize(in, path_);
+  }
+}
+
+MessageSink::MessageSink(const Case& c, std::vector<MessageOutput*> outputs, StateVisitor* resumed)
     : case_(c), messages_(c), outputs_(std::move(outputs)) {
+  if (resumed != nullptr) messages_.memory(*resumed);
   const std::vector<StampedMessage> topics = messages_.topics();
   for (MessageOutput* output : outputs_) output->open(topics);
-  write(messages_.opening());
+  for (MessageOutput* output : outputs_) {
+    if (output->resumed()) continue;
+    for (const StampedMessage& message : messages_.opening()) output->write(message);
+  }
+}
+
+void MessageSink::onCheckpoint(StateVisitor& state) {
+  messages_.memory(state);
+  for (MessageOutput* output : outputs_) output->onCheckpoint(state);
 }
 
 void MessageSink::onStep(const CommittedStep& step) { write(messages_.of(step)); }

@@ -10,18 +10,46 @@
 
 namespace monarch_flight {
 
-FlightRun::FlightRun(const Case& c, const std::string& out, std::vector<MessageOutput*> listeners)
+FlightRun::FlightRun(const Case& c, const std::string& out, bool resume,
+                     std::vector<MessageOutput*> listeners)
     : case_(c),
-      fields_(c.output.fields_every > 0 ? makeFieldOutput(c, out + "/fields") : nullptr),
-      files_(c, out),
+      checkpoints_(c, out, resume),
+      fields_(c.output.fields_every > 0 ? makeFieldOutput(c, out + "/fields", checkpoints_.outputs()) : nullptr),
+      files_(c, out, &checkpoints_),
       progress_(std::cout, isatty(STDOUT_FILENO) != 0, c.time) {
-  if (c.output.record) {
-    bag_ = std::make_unique<BagOutput>(files_.directory().file("flight.bag"));
-    listeners.push_back(bag_.get());
-  }
-  if (!listeners.empty()) messages_ = std::make_unique<MessageSink>(c, listeners);
+  openBag(listeners);
+  if (!listeners.empty())
+    messages_ = std::make_unique<MessageSink>(c, listeners, checkpoints_.outputs());
   std::cout << "case " << c.name << ": " << c.time.steps << " steps of " << c.time.dt
             << " s; results in " << out << std::endl;
+  if (checkpoints_.resumption()) {
+    progress_.resumeAt(checkpoints_.resumption()->step);
+    tell();
+  }
+}
+
+void FlightRun::openBag(std::vector<MessageOutput*>& listeners) {
+  const std::string path = files_.directory().file("flight.bag");
+  StateVisitor* resumed = checkpoints_.outputs();
+  bag_ = resumed ? std::make_unique<BagOutput>(path, *resumed) : std::make_unique<BagOutput>(path);
+  if (case_.output.record) {
+    listeners.push_back(bag_.get());
+    return;
+  }
+  if (bag_->resumed()) {  // recorded before, but not from here on
+    bag_->open({});
+    bag_->close();
+  }
+  bag_.reset();
+}
+
+void FlightRun::tell() const {
+  const Resumption& resumption = *checkpoints_.resumption();
+  for (const std::string& why : resumption.refused)
+    std::cout << "checkpoint not used: " << why << std::endl;
+  std::cout << "goes on behind step " << resumption.step << std::endl;
+  for (const std::string& change : resumption.changed)
+    std::cout << "changed since then: " << change << std::endl;
 }
 
 int FlightRun::fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
@@ -31,12 +59,16 @@ int FlightRun::fly(std::uint64_t run_id, Participant& fluid, Participant& flight
   if (fields_) sinks.push_back(fields_.get());
   sinks.push_back(&files_);  // the summary knows of the failures of those before it
   sinks.insert(sinks.end(), last_.begin(), last_.end());
-  const RunResult result = runCase(case_, run_id, fluid, flight, wing, sinks, control);
+  const RunResult result = runCase(case_, run_id, fluid, flight, wing, sinks, control,
+                                   &checkpoints_);
   if (result.complete) {
     std::cout << "flight complete: " << files_.directory().path() << std::endl;
     return kExitComplete;
   }
   std::cerr << "flight failed: " << result.failure << std::endl;
+  if (checkpoints_.kept())
+    std::cerr << "it can go on from step " << *checkpoints_.kept()
+              << ": scripts/fly resume:=" << files_.directory().path() << std::endl;
   return stop ? kExitInterrupted : kExitFailed;
 }
 

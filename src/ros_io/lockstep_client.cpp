@@ -1,6 +1,7 @@
 #include "monarch_flight/ros_io/lockstep_client.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "monarch_flight/ros_io/conversions.h"
 
@@ -13,8 +14,8 @@ const ros::WallDuration kSlice(0.1);
 // ABORT is a courtesy: a node that computes, hangs or is gone is not waited for any longer.
 constexpr double kAbortLimit = 2.0;
 
-ros::WallDuration slice(const ros::WallTime& deadline) {
-  const ros::WallDuration left = deadline - ros::WallTime::now();
+ros::WallDuration slice(const ros::SteadyTime& deadline) {
+  const ros::WallDuration left = deadline - ros::SteadyTime::now();
   return std::max(ros::WallDuration(0.0), std::min(left, kSlice));
 }
 
@@ -45,7 +46,7 @@ bool RosParticipant::ready() const { return connected() && replies_.getNumPublis
 
 void RosParticipant::connect() {
   greet();
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(run_.limits.connect_s);
+  const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(run_.limits.connect_s);
   while (!ready()) {
     run_.queue.callAvailable(slice(deadline));
     if (answer_ && !answer_->refusal.empty()) {
@@ -56,7 +57,7 @@ void RosParticipant::connect() {
       if (!why.empty()) throw ExchangeError("cannot run with " + name() + ": " + why);
     }
     if (*run_.stop || !ros::ok()) throw ExchangeError("interrupted while waiting for " + name());
-    if (ros::WallTime::now() >= deadline) {
+    if (ros::SteadyTime::now() >= deadline) {
       throw ExchangeError(
           name() + " did not answer the handshake within " + inSeconds(run_.limits.connect_s) +
           ": is it running, in namespace " + node_.getNamespace() + " of this master" +
@@ -70,9 +71,7 @@ void RosParticipant::connect() {
 
 void RosParticipant::requireAlive(const ExchangeKey& key) const {
   const std::string where = " while waiting for " + name() + " at " + describe(key);
-  if (key.phase != Phase::kAbort && (*run_.stop || !ros::ok())) {
-    throw ExchangeError("interrupted" + where);
-  }
+  if (key.phase != Phase::kAbort && !ros::ok()) throw ExchangeError("interrupted" + where);
   if (!connected()) {
     throw ExchangeError(name() + " is lost (connection closed) at " + describe(key));
   }
@@ -122,14 +121,19 @@ Reply RosParticipant::exchange(const Request& request) {
 
 void RosParticipant::await(ParticipantRequest& message, const ExchangeKey& key) {
   const double limit = limitOf(key.phase);
-  const ros::WallTime begin = ros::WallTime::now();
-  const ros::WallTime deadline = begin + ros::WallDuration(limit);
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  const ros::SteadyTime deadline = begin + ros::WallDuration(limit);
   ros::WallDuration patience(limit / 8.0);  // then it is asked again: after 1/8, 1/4, 1/2
+  std::optional<ros::SteadyTime> stopped;  // when the interrupt was seen
   while (true) {
     run_.queue.callAvailable(slice(deadline));
     if (reply_) return;
     requireAlive(key);
-    const ros::WallTime now = ros::WallTime::now();
+    const ros::SteadyTime now = ros::SteadyTime::now();
+    if (*run_.stop && !stopped) stopped = now;
+    if (stopped && now >= *stopped + ros::WallDuration(run_.limits.grace_s)) {
+      throw ExchangeError("interrupted while waiting for " + name() + " at " + describe(key));
+    }
     if (now >= deadline) {
       throw ExchangeError(name() + " did not answer " + describe(key) + " within " +
                           inSeconds(limit) +

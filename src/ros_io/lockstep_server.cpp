@@ -41,17 +41,17 @@ bool LockstepServer::coordinatorListens() const {
 void LockstepServer::serve() {
   waitForCoordinator();
   if (!refusal_.empty()) refuse();
-  last_heard_ = ros::WallTime::now();
+  last_heard_ = ros::SteadyTime::now();
   while (!ended_) {
     queue_.callAvailable(kSlice);
     if (ended_) break;
-    if (stop_ || !ros::ok()) throw ExchangeError("interrupted");
+    if (!ros::ok() || graceIsOver()) throw ExchangeError("interrupted");
     if (!coordinatorListens()) {
       throw ExchangeError("the coordinator (" + coordinator_->node +
                           ") is lost: its connection closed");
     }
     const double limit = iterating_ ? limits_.silence_s : limits_.silence_s + 2.0 * limits_.start_s;
-    if (ros::WallTime::now() > last_heard_ + ros::WallDuration(limit)) {
+    if (ros::SteadyTime::now() > last_heard_ + ros::WallDuration(limit)) {
       throw ExchangeError("the coordinator (" + coordinator_->node + ") has been silent for " +
                           inSeconds(limit));
     }
@@ -59,22 +59,30 @@ void LockstepServer::serve() {
   letCoordinatorLeave();
 }
 
+/// An interrupted run ends when the coordinator, interrupted too, has made its last checkpoint.
+bool LockstepServer::graceIsOver() {
+  if (!stop_) return false;
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (stopped_.isZero()) stopped_ = now;
+  return now >= stopped_ + ros::WallDuration(limits_.grace_s);
+}
+
 void LockstepServer::letCoordinatorLeave() {
   // The launcher ends everything with the first node that goes; the coordinator still closes its
   // files.
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(limits_.exchange_s);
-  while (coordinatorListens() && !stop_ && ros::ok() && ros::WallTime::now() < deadline) {
+  const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(limits_.exchange_s);
+  while (coordinatorListens() && !graceIsOver() && ros::ok() && ros::SteadyTime::now() < deadline) {
     queue_.callAvailable(kSlice);
   }
 }
 
 void LockstepServer::waitForCoordinator() {
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(limits_.connect_s);
+  const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(limits_.connect_s);
   while (!coordinatorListens()) {
     queue_.callAvailable(kSlice);
     if (!refusal_.empty()) refuse();
     if (stop_ || !ros::ok()) throw ExchangeError("interrupted while waiting for the coordinator");
-    if (ros::WallTime::now() > deadline) {
+    if (ros::SteadyTime::now() > deadline) {
       throw ExchangeError("no coordinator appeared within " + inSeconds(limits_.connect_s) +
                           ": is it running, in the same namespace of this master, with the same " +
                           Token::kVariable + "? (" + std::to_string(counters_.forged) +
@@ -86,7 +94,7 @@ void LockstepServer::waitForCoordinator() {
 void LockstepServer::onHello(const HelloConstPtr& hello) {
   if (started_) {
     if (hello->run == coordinator_->run) {
-      last_heard_ = ros::WallTime::now();  // a paused run
+      last_heard_ = ros::SteadyTime::now();  // a paused run
     } else {
       ++counters_.foreign;
     }
@@ -100,8 +108,8 @@ void LockstepServer::onHello(const HelloConstPtr& hello) {
 
 void LockstepServer::refuse() {
   // The latched refusal is delivered to whoever connects; leave once the coordinator has had it.
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(2.0);
-  while (!hello_out_.heardBy(coordinator_->node) && ros::WallTime::now() < deadline && !stop_) {
+  const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(2.0);
+  while (!hello_out_.heardBy(coordinator_->node) && ros::SteadyTime::now() < deadline && !stop_) {
     queue_.callAvailable(ros::WallDuration(0.05));
   }
   ros::WallDuration(0.3).sleep();
@@ -128,13 +136,14 @@ void LockstepServer::onRequest(const ParticipantRequestConstPtr& request) {
     ++counters_.foreign;
     return;
   }
-  last_heard_ = ros::WallTime::now();
+  last_heard_ = ros::SteadyTime::now();
   if (key.phase == CouplingKey::ABORT) {
     ended_ = true;
     ParticipantReply farewell = toMessage(answer(fromMessage(*request)));
     replies_.publish(farewell);
     return;
   }
+  if (key.phase == CouplingKey::CHECKPOINT) return keep(*request);
   if (started_ && order(key) < order(cache_.key)) {
     ++counters_.late;
   } else if (started_ && order(key) == order(cache_.key)) {
@@ -148,10 +157,23 @@ void LockstepServer::onRequest(const ParticipantRequestConstPtr& request) {
   }
 }
 
+/// A checkpoint of the committed step may be asked for within the next one.
+void LockstepServer::keep(const ParticipantRequest& request) {
+  if (kept_.key.phase == CouplingKey::CHECKPOINT && order(kept_.key) == order(request.key)) {
+    ++counters_.repeated;
+    return reply(kept_);
+  }
+  ParticipantReply answered = toMessage(answer(fromMessage(request)));
+  answered.key = request.key;
+  last_heard_ = ros::SteadyTime::now();
+  if (answered.error.empty()) kept_ = answered;
+  reply(answered);
+}
+
 void LockstepServer::compute(const ParticipantRequest& request) {
   ParticipantReply answered = toMessage(answer(fromMessage(request)));
   answered.key = request.key;
-  last_heard_ = ros::WallTime::now();
+  last_heard_ = ros::SteadyTime::now();
   if (!answered.error.empty()) {  // who asks out of turn does not make what is due late
     failure_ = std::move(answered);
     return reply(failure_);

@@ -28,6 +28,7 @@ void requestStop(int) { stop_requested = true; }
 int guarded(const std::string& name, const std::function<int()>& body) {
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is met like a full disk: with a message
   const auto tell = [&name](const char* what) { std::cerr << name << ": " << what << std::endl; };
   try {
     return body();
@@ -58,6 +59,15 @@ int nodeMain(const std::string& name, int argc, char** argv, const std::function
   });
 }
 
+// A process of the flow other than the first leaves when that one says so, not by a signal: the
+// first still writes a checkpoint, to which all contribute.
+int serveFlow(const Processes& processes) {
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_IGN);
+  processes.serveFlow();
+  return kExitComplete;
+}
+
 // Folder of the launcher's own files, as ROS has it.
 std::string rosHome() {
   if (const char* home = std::getenv("ROS_HOME")) return home;
@@ -76,8 +86,7 @@ int coordinatorMain(int argc, char** argv) {
 int fluidMain(int argc, char** argv) {
   const Processes processes(&argc, &argv);
   if (processes.rank() == 0) return participantMain(Role::kFluid, argc, argv);
-  processes.serveFlow();
-  return kExitComplete;
+  return serveFlow(processes);
 }
 
 int participantMain(Role role, int argc, char** argv) {
@@ -87,10 +96,7 @@ int participantMain(Role role, int argc, char** argv) {
 
 int inProcessMain(int argc, char** argv) {
   const Processes processes(&argc, &argv);
-  if (processes.rank() > 0) {
-    processes.serveFlow();
-    return kExitComplete;
-  }
+  if (processes.rank() > 0) return serveFlow(processes);
   return guarded("fly_in_process", [&] {
     const RunParameters parameters = runParameters(argc, argv);
     if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
@@ -101,9 +107,10 @@ int inProcessMain(int argc, char** argv) {
       return static_cast<int>(kExitComplete);
     }
     requireProcesses(parameters, c);
+    const std::string out = outputDirectory(parameters, c);
     std::cout << plannedRun(parameters, c);
-    FlightRun run(c, outputDirectory(parameters, c), {});
-    InProcessFederation federation(c);
+    FlightRun run(c, out, !parameters.resume.empty(), {});
+    InProcessFederation federation(c, checkpointFolder(out));
     FlyUntil control(stop_requested);
     return run.fly(1, federation.participant(Role::kFluid), federation.participant(Role::kFlight),
                    federation.participant(Role::kWing), control, stop_requested);

@@ -1,6 +1,8 @@
 #include "monarch_flight/ros_io/participant_node.h"
 
+#include <cstdlib>
 #include <iostream>
+#include <random>
 
 #include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/ros_io/master.h"
@@ -21,10 +23,28 @@ Case readCase(Role role) {
   return c;
 }
 
+// Where the coordinator keeps the checkpoints of the run; it says so before the first request.
+std::string checkpointsOfTheRun() {
+  XmlRpc::XmlRpcValue value = parametersOf(std::string(kNamespace) + "/" + kCheckpointsKey);
+  return value.getType() == XmlRpc::XmlRpcValue::TypeString ? static_cast<std::string>(value)
+                                                            : std::string();
+}
+
+// For tests: MONARCH_ANSWER_DELAY_MS delays every answer by a random time up to so many milliseconds.
+void delayForTest() {
+  static const char* const limit = std::getenv("MONARCH_ANSWER_DELAY_MS");
+  if (limit == nullptr) return;
+  static std::minstd_rand random(std::random_device{}());
+  std::uniform_real_distribution<double> milliseconds(0.0, std::atof(limit));
+  ros::WallDuration(1e-3 * milliseconds(random)).sleep();
+}
+
 }  // namespace
 
 Reply ParticipantOnStart::exchange(const Request& request) {
-  if (request.key.phase == Phase::kStart) participant_ = makeParticipant(role_, case_);
+  delayForTest();
+  if (request.key.phase == Phase::kStart)
+    participant_ = makeParticipant(role_, case_, checkpointsOfTheRun());
   if (participant_) return participant_->exchange(request);
   Reply reply;
   reply.key = request.key;

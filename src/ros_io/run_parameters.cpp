@@ -20,8 +20,8 @@ using Values = std::map<std::string, std::string>;
 using Faults = std::vector<std::string>;
 
 const char kKnown[] =
-    "case, out, directory, fluid, grid, flaps, steps_per_flap, record, fields_every, ranks, watchdog, "
-    "paused";
+    "case, out, directory, fluid, grid, flaps, steps_per_flap, record, fields_every, "
+    "checkpoint_every, ranks, watchdog, paused, resume, checkpoints";
 
 bool oneOf(const std::string& key, std::initializer_list<const char*> names) {
   for (const char* name : names) {
@@ -54,9 +54,14 @@ void take(const std::string& key, const std::string& value, const std::string& w
     out.name = value;
   } else if (key == "out") {
     out.out = value;
+  } else if (key == "resume") {
+    out.resume = value;
+  } else if (key == kCheckpointsKey) {
+    // of the coordinator to the solver nodes: participant_node.cpp
   } else if (key == "directory") {
     out.directory = value;
-  } else if (oneOf(key, {"fluid", "grid", "flaps", "steps_per_flap", "record", "fields_every"})) {
+  } else if (oneOf(key, {"fluid", "grid", "flaps", "steps_per_flap", "record", "fields_every",
+                         "checkpoint_every"})) {
     out.overrides[key] = value;
   } else if (key == "plan" && where.empty()) {
     out.plan = value == "true";
@@ -83,6 +88,11 @@ RunParameters checked(const Values& values, const std::string& where, Faults fau
   for (const auto& [key, value] : values) {
     if (!value.empty()) take(key, value, where, out, faults);
   }
+  if (!out.resume.empty() && !out.out.empty()) {
+    faults.push_back(where + "out = " + out.out + ": a resumed run goes on in its own folder (" +
+                     where + "resume = " + out.resume + "); leave one of them out");
+  }
+  if (!out.resume.empty() && (values.count("case") == 0 || values.at("case").empty())) out.name = out.resume + "/case.yaml";
   if (!faults.empty()) throw InputError(faults);
   return out;
 }
@@ -187,6 +197,8 @@ std::string plannedRun(const RunParameters& parameters, const Case& c) {
 std::string outputDirectory(const RunParameters& parameters, const Case& c) {
   const fs::path base =
       parameters.directory.empty() ? fs::current_path() : fs::path(parameters.directory);
+  if (!parameters.resume.empty())
+    return fs::absolute(base / parameters.resume).lexically_normal();
   if (!parameters.out.empty()) return fs::absolute(base / parameters.out).lexically_normal();
   const std::time_t now = std::time(nullptr);
   char stamp[32];

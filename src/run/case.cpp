@@ -2,6 +2,7 @@
 
 #include <regex>
 
+#include "monarch_flight/run/sha256.h"
 #include "run/case_parts.h"
 #include "run/case_sources.h"
 

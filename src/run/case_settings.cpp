@@ -163,6 +163,12 @@ void readOutput(Section section, Case& c) {
                                       ": quasi_steady has no flow field; must be 0, or choose "
                                       "fluid/solver navier_stokes");
   }
+  c.output.checkpoint_every =
+      section.integer("checkpoint_every", "steps between checkpoints, 0: none");
+  if (c.output.checkpoint_every < 0) {
+    section.fault("checkpoint_every", " = " + std::to_string(c.output.checkpoint_every) +
+                                          ": must be >= 0; 0 makes no checkpoints");
+  }
   section.finish();
 }
 

@@ -1,11 +1,7 @@
 #include "run/case_sources.h"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <stdexcept>
 #include <vector>
 
 #include "monarch_flight/math/errors.h"
@@ -120,7 +116,8 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
       {"flaps", {"time", "flaps"}},
       {"steps_per_flap", {"time", "steps_per_flap"}},
       {"record", {"output", "record"}},
-      {"fields_every", {"output", "fields_every"}}};
+      {"fields_every", {"output", "fields_every"}},
+      {"checkpoint_every", {"output", "checkpoint_every"}}};
   for (const auto& [key, value] : overrides) {
     if (key == "grid") {
       overrideGrid(root, value);
@@ -129,8 +126,8 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
     const auto target = known.find(key);
     if (target == known.end()) {
       faults.add(key + ":=" + value +
-                 " is not a known override: known are fluid, grid, flaps, steps_per_flap, record, fields_every; "
-                 "correct or remove it");
+                 " is not a known override: known are fluid, grid, flaps, steps_per_flap, record, "
+                 "fields_every, checkpoint_every; correct or remove it");
       continue;
     }
     const auto [section, name] = target->second;
@@ -193,21 +190,6 @@ YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,
   layBelow(root, "motion", "series", "_kinematics.yaml", config_dir, faults);
   applyOverrides(root, overrides, faults);
   return root;
-}
-
-std::string sha256Hex(const std::string& text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  if (EVP_Digest(text.data(), text.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error("OpenSSL cannot compute SHA-256");
-  }
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string hex;
-  for (unsigned int i = 0; i < length; ++i) {
-    hex += kDigits[digest[i] >> 4];
-    hex += kDigits[digest[i] & 15];
-  }
-  return hex;
 }
 
 }  // namespace monarch_flight

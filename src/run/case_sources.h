@@ -29,7 +29,4 @@ YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,
 /// The top map of a case at hand as text; InputError when it is none.
 YAML::Node caseDocument(const std::string& yaml, const std::string& name);
 
-/// SHA-256 of a text, 64 hexadecimal digits.
-std::string sha256Hex(const std::string& text);
-
 }  // namespace monarch_flight

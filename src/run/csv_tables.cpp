@@ -25,7 +25,23 @@ void putInteger(std::string& row, unsigned long value) { row += std::to_string(v
 
 void endRow(std::string& row) { row.back() = '\n'; }
 
+OutputMark markOf(StateVisitor* resumed, const std::string& name) {
+  OutputMark mark;
+  if (resumed != nullptr) showMark(*resumed, name, mark);
+  return mark;
+}
+
+// An empty mark opens a new file.
+OutputFile opened(const std::string& path, const OutputMark& mark) {
+  return mark.bytes > 0 ? OutputFile(path, mark) : OutputFile(path);
+}
+
 }  // namespace
+
+void showMark(StateVisitor& state, const std::string& name, OutputMark& mark) {
+  state((name + "_bytes").c_str(), mark.bytes);
+  state((name + "_sha256").c_str(), mark.sha256);
+}
 
 const std::string& FlightTable::header() {
   static const std::string names =
@@ -35,7 +51,19 @@ const std::string& FlightTable::header() {
   return names;
 }
 
-FlightTable::FlightTable(const std::string& path) : file_(path) { file_.write(header() + "\n"); }
+FlightTable::FlightTable(const std::string& path, StateVisitor* resumed)
+    : file_(opened(path, markOf(resumed, "flight_csv"))) {
+  if (resumed == nullptr)
+    file_.write(header() + "\n");
+  else
+    (*resumed)("flight_csv_quaternion", last_.coeffs());
+}
+
+void FlightTable::onCheckpoint(StateVisitor& state) {
+  OutputMark mark = file_.mark();
+  showMark(state, "flight_csv", mark);
+  state("flight_csv_quaternion", last_.coeffs());
+}
 
 void FlightTable::append(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
@@ -72,8 +100,14 @@ const std::string& IterationTable::header() {
   return names;
 }
 
-IterationTable::IterationTable(const std::string& path) : file_(path) {
-  file_.write(header() + "\n");
+IterationTable::IterationTable(const std::string& path, StateVisitor* resumed)
+    : file_(opened(path, markOf(resumed, "iterations_csv"))) {
+  if (resumed == nullptr) file_.write(header() + "\n");
+}
+
+void IterationTable::onCheckpoint(StateVisitor& state) {
+  OutputMark mark = file_.mark();
+  showMark(state, "iterations_csv", mark);
 }
 
 void IterationTable::append(const CommittedStep& step) {

@@ -8,6 +8,7 @@
 #include "monarch_flight/coupling/participants.h"
 #include "monarch_flight/fluid/navier_stokes.h"
 #include "monarch_flight/fluid/quasi_steady.h"
+#include "monarch_flight/run/kept_participant.h"
 
 namespace monarch_flight {
 namespace {
@@ -19,6 +20,10 @@ class SinkChain : public StepSink {
 
   void onStep(const CommittedStep& step) override {
     for (StepSink* sink : sinks_) sink->onStep(step);
+  }
+
+  void onCheckpoint(StateVisitor& state) override {
+    for (StepSink* sink : sinks_) sink->onCheckpoint(state);
   }
 
   void onReset() override {
@@ -89,34 +94,39 @@ CoupledModel makeModel(const Case& c) {
   return model;
 }
 
-std::unique_ptr<Participant> makeParticipant(Role role, const Case& c) {
+std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
+                                             const std::string& checkpoints) {
   const CoupledModel model = makeModel(c);
-  if (role == Role::kFluid) return std::make_unique<FluidParticipant>(model, makeFluid(c));
-  if (role == Role::kFlight) return std::make_unique<FlightParticipant>(model);
-  return std::make_unique<WingParticipant>(model);
+  std::unique_ptr<SolverParticipant> solver;
+  if (role == Role::kFluid) solver = std::make_unique<FluidParticipant>(model, makeFluid(c));
+  if (role == Role::kFlight) solver = std::make_unique<FlightParticipant>(model);
+  if (role == Role::kWing) solver = std::make_unique<WingParticipant>(model);
+  return std::make_unique<KeptParticipant>(role, std::move(solver), checkpoints);
 }
 
 RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
-                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control) {
+                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control,
+                  Keeper* keeper) {
   SinkChain chain(sinks);
   Coordinator coordinator(makeModel(c), c.coupling, fluid, flight, wing, run_id);
-  const CoupledOutcome outcome = coordinator.run({&chain}, control);
+  const CoupledOutcome outcome = coordinator.run({&chain}, control, keeper);
   RunResult result;
   result.failure = chain.failure().empty() ? outcome.failure : chain.failure();
   result.complete = outcome.complete && result.failure.empty();
   return result;
 }
 
-InProcessFederation::InProcessFederation(const Case& c) : case_(c) {
+InProcessFederation::InProcessFederation(const Case& c, const std::string& checkpoints)
+    : case_(c) {
   for (Role role : {Role::kFluid, Role::kFlight, Role::kWing})
-    participants_[static_cast<std::size_t>(role)] = makeParticipant(role, c);
+    participants_[static_cast<std::size_t>(role)] = makeParticipant(role, c, checkpoints);
 }
 
 RunResult InProcessFederation::run(std::uint64_t run_id, const std::vector<StepSink*>& sinks,
-                                   const StopFlag& stop) {
+                                   const StopFlag& stop, Keeper* keeper) {
   FlyUntil control(stop);
   return runCase(case_, run_id, *participants_[0], *participants_[1], *participants_[2], sinks,
-                 control);
+                 control, keeper);
 }
 
 }  // namespace monarch_flight

@@ -3,9 +3,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <vector>
 
 namespace monarch_flight {
 namespace {
@@ -33,15 +36,54 @@ std::string folderOf(const std::string& path) {
   return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
+// The first `size` bytes of a file into a hash; false when it is shorter or cannot be read.
+bool hashFile(const std::string& path, std::uint64_t size, Sha256& hash) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> piece(1 << 16);
+  while (size > 0) {
+    const std::uint64_t n = std::min<std::uint64_t>(size, piece.size());
+    if (!file.read(piece.data(), static_cast<std::streamsize>(n))) return false;
+    hash.add(piece.data(), n);
+    size -= n;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string problem(const std::string& path, const OutputMark& mark) {
+  const bool growing = ::access(active(path).c_str(), F_OK) == 0;
+  const std::string file = growing ? active(path) : path;
+  if (::access(file.c_str(), R_OK) != 0) return file + " cannot be read";
+  Sha256 hash;
+  if (!hashFile(file, mark.bytes, hash))
+    return file + " has fewer than the " + std::to_string(mark.bytes) + " bytes it had then";
+  if (hash.hex() != mark.sha256) return file + " does not begin with the bytes it had then";
+  return "";
+}
+
 // The rename is durable only when the folder is.
-void syncFolder(const std::string& path) {
+void syncFolderOf(const std::string& path) {
   const int folder = ::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
   ::fsync(folder);
   ::close(folder);
 }
 
-}  // namespace
+OutputFile::OutputFile(const std::string& path, const OutputMark& mark) : path_(path) {
+  failure_ = problem(path, mark);
+  if (failed()) throw OutputError(failure_);
+  if (::access(active(path_).c_str(), F_OK) != 0 &&
+      std::rename(path_.c_str(), active(path_).c_str()) != 0)
+    fail("cannot be renamed", errno);
+  descriptor_ = ::open(active(path_).c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor_ < 0) fail("cannot be opened", errno);
+  if (::ftruncate(descriptor_, static_cast<off_t>(mark.bytes)) != 0 ||
+      ::lseek(descriptor_, 0, SEEK_END) < 0)
+    fail("cannot be cut to the length of the checkpoint", errno);
+  bytes_ = mark.bytes;
+  hashFile(active(path_), bytes_, hash_);
+}
 
 OutputFile::OutputFile(const std::string& path) : path_(path) {
   descriptor_ = ::open(active(path_).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
@@ -54,6 +96,8 @@ OutputFile::~OutputFile() {
 
 void OutputFile::write(std::string_view bytes) {
   if (failed()) throw OutputError(failure_);
+  bytes_ += bytes.size();
+  hash_.add(bytes.data(), bytes.size());
   while (!bytes.empty()) {
     const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
@@ -69,7 +113,13 @@ void OutputFile::finish() {
   descriptor_ = -1;
   if (closed != 0) fail("cannot be closed", errno);
   if (std::rename(active(path_).c_str(), path_.c_str()) != 0) fail("cannot be renamed", errno);
-  syncFolder(path_);
+  syncFolderOf(path_);
+}
+
+OutputMark OutputFile::mark() {
+  if (failed()) throw OutputError(failure_);
+  if (::fsync(descriptor_) != 0) fail("cannot be flushed to the disk", errno);
+  return {bytes_, hash_.hex()};
 }
 
 void OutputFile::fail(const char* what, int error) {

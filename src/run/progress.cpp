@@ -48,6 +48,7 @@ void ProgressSink::onStep(const CommittedStep& step) {
 
 void ProgressSink::onReset() {
   next_tenth_ = 1;
+  first_ = 0;
   if (!terminal_) out_ << "set back to the start" << std::endl;
 }
 
@@ -71,7 +72,8 @@ std::string ProgressSink::line(const CommittedStep& step) const {
   }
   std::snprintf(rest, sizeof rest, "step %u/%u  sub-iterations %zu  left ", step.step, time_.steps,
                 step.iterations.size());
-  return text + rest + clock(elapsed * (1.0 - done) / done);
+  const double flown = step.step - first_, left = time_.steps - step.step;
+  return text + rest + clock(elapsed * left / std::max(flown, 1.0));
 }
 
 }  // namespace monarch_flight

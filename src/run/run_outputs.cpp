@@ -1,5 +1,7 @@
 #include "monarch_flight/run/run_outputs.h"
 
+#include <cstdio>
+
 namespace monarch_flight {
 namespace {
 
@@ -22,16 +24,19 @@ void collect(std::string& failure, Action action) {
 
 }  // namespace
 
-RunOutputs::Files::Files(const Case& c, const RunDirectory& directory)
-    : flight(directory.file("flight.csv")),
-      iterations(directory.file("iterations.csv")),
+RunOutputs::Files::Files(const Case& c, const RunDirectory& directory, StateVisitor* resumed)
+    : flight(directory.file("flight.csv"), resumed),
+      iterations(directory.file("iterations.csv"), resumed),
       summary(c) {}
 
-RunOutputs::RunOutputs(const Case& c, const std::string& directory)
+RunOutputs::RunOutputs(const Case& c, const std::string& directory, Checkpoints* resumed)
     : case_(c),
-      directory_(directory, estimatedOutputBytes(c)),
-      files_(std::make_unique<Files>(c, directory_)) {
+      directory_(directory, estimatedOutputBytes(c), resumed && resumed->outputs()),
+      files_(std::make_unique<Files>(c, directory_, resumed ? resumed->outputs() : nullptr)) {
+  if (resumed && resumed->outputs())
+    files_->summary.resume(*resumed->outputs(), *resumed->resumption());
   writeWhole(directory_.file("case.yaml"), c.resolved_yaml);
+  std::remove(directory_.file("summary.json").c_str());  // of the part flown before
 }
 
 void RunOutputs::onStep(const CommittedStep& step) {
@@ -42,7 +47,13 @@ void RunOutputs::onStep(const CommittedStep& step) {
 
 void RunOutputs::onReset() {
   files_.reset();
-  files_ = std::make_unique<Files>(case_, directory_);
+  files_ = std::make_unique<Files>(case_, directory_, nullptr);
+}
+
+void RunOutputs::onCheckpoint(StateVisitor& state) {
+  files_->flight.onCheckpoint(state);
+  files_->iterations.onCheckpoint(state);
+  files_->summary.onCheckpoint(state);
 }
 
 void RunOutputs::onEnd(const std::string& failure) {

@@ -1,23 +1,11 @@
 #include "monarch_flight/run/state_hash.h"
 
-#include <openssl/evp.h>
-
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <stdexcept>
 
 namespace monarch_flight {
 namespace {
-
-struct FreeContext {
-  void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
-};
-using Context = std::unique_ptr<EVP_MD_CTX, FreeContext>;
-
-void require(int ok) {
-  if (ok != 1) throw std::runtime_error("state hash: OpenSSL has no working SHA-256");
-}
 
 // The 43 doubles of a step as little-endian bytes.
 class Layout {
@@ -45,17 +33,6 @@ class Layout {
 
 }  // namespace
 
-struct StateHash::Impl {
-  Context context{EVP_MD_CTX_new()};
-};
-
-StateHash::StateHash() : impl_(std::make_unique<Impl>()) {
-  require(impl_->context != nullptr);
-  require(EVP_DigestInit_ex(impl_->context.get(), EVP_sha256(), nullptr));
-}
-
-StateHash::~StateHash() = default;
-
 void StateHash::add(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
   Layout layout;
@@ -69,23 +46,13 @@ void StateHash::add(const CommittedStep& step) {
   for (const auto* v : {&loads.force_pressure, &loads.force_friction, &loads.moment_pressure,
                         &loads.moment_friction})
     layout.put(*v);
-  require(EVP_DigestUpdate(impl_->context.get(), layout.data(), layout.size()));
+  hash_.add(layout.data(), layout.size());
 }
 
-std::string StateHash::hex() const {
-  const Context copy(EVP_MD_CTX_new());
-  require(copy != nullptr);
-  require(EVP_MD_CTX_copy_ex(copy.get(), impl_->context.get()));
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
-  unsigned int size = 0;
-  require(EVP_DigestFinal_ex(copy.get(), digest.data(), &size));
-  static const char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < size; ++i) {
-    text += kDigits[digest[i] >> 4];
-    text += kDigits[digest[i] & 15];
-  }
-  return text;
+void StateHash::memory(StateVisitor& state) {
+  std::vector<char> where = hash_.state();
+  state.bytes("state_sha256", where);
+  if (state.loading()) hash_.setState(where);
 }
 
 }  // namespace monarch_flight

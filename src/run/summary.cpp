@@ -98,8 +98,9 @@ void Summary::addTimes(const CommittedStep& step) {
   for (std::size_t i = 0; i < wall_.size(); ++i) wall_[i] += step.wall_s[i];
   exchange_ += step.exchange_s;
   coupling_ += step.coupling_s;
-  outputs_ = step.outputs_s;
-  kernels_ = step.fluid.kernel_s;
+  outputs_ = outputs_before_ + step.outputs_s;
+  for (std::size_t i = 0; i < kernels_.size(); ++i)
+    kernels_[i] = kernels_before_[i] + step.fluid.kernel_s[i];
 }
 
 double Summary::flaps() const {
@@ -119,7 +120,60 @@ double Summary::climbAngleDegrees() const {
 const Range& Summary::subIterations() const { return solved_.count ? solved_ : all_; }
 
 double Summary::wallSeconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  return wall_before_ +
+         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void Summary::memory(StateVisitor& state) {
+  const auto range = [&state](const std::string& name, Range& r) {
+    state((name + "_min").c_str(), r.min);
+    state((name + "_max").c_str(), r.max);
+    state((name + "_sum").c_str(), r.sum);
+    state((name + "_count").c_str(), r.count);
+  };
+  range("theta_B", theta_B_);
+  range("theta_R", theta_R_);
+  range("sub_iterations_solved", solved_);
+  range("sub_iterations_all", all_);
+  range("fluid_evaluations", evaluations_);
+  range("added_mass_ratio", ratio_);
+  state("steps", steps_);
+  state("steps_unconverged", unconverged_);
+  state("steps_retried", retried_);
+  state("whole_flaps", whole_flaps_);
+  state("t_first", t_first_);
+  state("t_last", t_last_);
+  state("x_first", x_first_);
+  state("x_last", x_last_);
+  state("work_fluid", work_fluid_);
+  state("work_structure", work_structure_);
+  state("work_error", work_error_);
+  state("work_scale", work_scale_);
+  state.numbers("wall_s", wall_.data(), wall_.size());
+  state("wall_s_exchange", exchange_);
+  state("wall_s_coupling", coupling_);
+  state("wall_s_outputs", outputs_);
+  state.numbers("wall_s_kernels", kernels_.data(), kernels_.size());
+  if (state.loading()) {
+    outputs_before_ = outputs_;
+    kernels_before_ = kernels_;
+  }
+  state("cells", cells_);
+  state("added_mass", added_mass_);
+  hash_.memory(state);
+  double wall = wallSeconds();
+  state("wall_s_total", wall);
+  if (state.loading()) wall_before_ = wall;
+  state("resumed", resumed_);
+}
+
+void Summary::resume(StateVisitor& state, const Resumption& resumption) {
+  memory(state);
+  Json all = Json::parse(resumed_);
+  all.push_back({{"step", resumption.step},
+                 {"changed", resumption.changed},
+                 {"refused", resumption.refused}});
+  resumed_ = all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string Summary::json(const std::string& failure) const {
@@ -152,6 +206,7 @@ std::string Summary::json(const std::string& failure) const {
                  {"coupling", coupling_},
                  {"outputs", outputs_}};
   if (cells_ > 0) j["fluid_s"] = kernels(kernels_, wall_[0]);
+  if (resumed_ != "[]") j["resumed"] = Json::parse(resumed_);
   j["ignored_messages"] = {{"late", ignored_.late},
                            {"repeated", ignored_.repeated},
                            {"foreign", ignored_.foreign},

@@ -14,8 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-
-constexpr double kNear = 0.3;      // periodicity within which the targets lead
+constexpr double kNear = 0.3;  // periodicity within which the targets lead
 
 /// A better point: closer to periodic flight or, near it, closer to the targets.
 bool better(const TrimResidual& next, const TrimResidual& now, double weight) {
@@ -48,7 +47,8 @@ std::vector<std::optional<TrimResidual>> evaluateAll(const TrimFunction& f,
   return results;
 }
 
-/// Least squares of |a + A p|^2 + damping |p|^2 with p within bounds: unknowns that leave them are held there.
+/// Least squares of |a + A p|^2 + damping |p|^2 with p within bounds: unknowns that leave them are
+/// held there.
 VectorXd boundedLeastSquares(const MatrixXd& A, const VectorXd& a, double damping,
                              const VectorXd& low, const VectorXd& high) {
   const Index q = A.cols();
@@ -214,7 +214,8 @@ NewtonResult solveTrim(const TrimFunction& f, const VectorXd& start, const Newto
   for (;; ++r.iterations) {
     accepted(r);
     if (r.jacobian.size() == 0 || !settings.broyden) {
-      if (!settings.central) {  // the run-in has taken the last flap's shape: differences start there
+      if (!settings
+               .central) {  // the run-in has taken the last flap's shape: differences start there
         if (const auto again = f(r.unknowns)) r.residual = *again;
         ++r.evaluations;
       }

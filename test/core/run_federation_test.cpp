@@ -45,8 +45,9 @@ RunResult fly(const Case& c, std::vector<StepSink*> sinks, const StopFlag& stop 
   return federation.run(7, sinks, stop);
 }
 
-/// (x, z, theta_B, theta_R) after a quarter of a flap, released at once from explicit initial values
-/// whose accelerations are far from those of the flight; `believed`: taken for those of the flight.
+/// (x, z, theta_B, theta_R) after a quarter of a flap, released at once from explicit initial
+/// values whose accelerations are far from those of the flight; `believed`: taken for those of the
+/// flight.
 Eigen::Vector4d quarterFlap(int steps_per_flap, bool believed) {
   Case c = quasiSteady("climb_trimmed", {{"steps_per_flap", std::to_string(steps_per_flap)}});
   c.coupling.prescribed_steps = 0;

@@ -17,7 +17,7 @@ TOPICS = {
     "/monarch_flight/state", "/monarch_flight/odom", "/monarch_flight/path",
     "/monarch_flight/wrench/right_wing", "/monarch_flight/wrench/left_wing",
     "/monarch_flight/wing_pressure", "/monarch_flight/iterations"}
-FILES = ["case.yaml", "flight.bag", "flight.csv", "iterations.csv", "summary.json"]
+FILES = ["case.yaml", "checkpoints", "flight.bag", "flight.csv", "iterations.csv", "summary.json"]
 STEPS, PRESCRIBED, TOLERANCE = 500, 10, 1e-8
 
 

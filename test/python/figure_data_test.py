@@ -67,6 +67,11 @@ class Runs(unittest.TestCase):
         np.testing.assert_allclose(flight["theta_R"], [0, -0.1, -0.2, -0.3, -0.4])
         np.testing.assert_allclose(flight["FZ"], -4e-3)
 
+    def test_numbers_of_a_case(self):
+        with tempfile.TemporaryDirectory() as name:
+            (pathlib.Path(name) / "case.yaml").write_text("{a: 9e-05, b: 3.5e-05, c: -1e3, d: e5, e: 7}", encoding="utf-8")
+            self.assertEqual(data.case_of(pathlib.Path(name)), dict(a=9e-5, b=3.5e-5, c=-1e3, d="e5", e=7))
+
     def test_measured_flight_is_at_no_distance_from_itself(self):
         real = data.measured()["columns"]
         flight = {k: real[k] + shift for k, shift in (("t", 3.0), ("x", 1.0), ("z", -2.0))}

@@ -200,8 +200,8 @@ TEST(Conversions, IterationRecordsCrossBitForBit) {
 TEST(Conversions, UnusableMessagesAreNamed) {
   ParticipantRequest request = toMessage(Request());
   EXPECT_EQ("", problem(request));
-  request.key.phase = 4;
-  EXPECT_EQ("unknown phase 4", problem(request));
+  request.key.phase = 6;
+  EXPECT_EQ("unknown phase 6", problem(request));
   request.protocol = kProtocolVersion + 1;
   EXPECT_NE(std::string::npos, problem(request).find("protocol version 4 instead of 3"));
   ParticipantReply reply = toMessage(Reply());

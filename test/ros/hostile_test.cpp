@@ -73,7 +73,7 @@ TEST_F(Nodes, HostileMessagesLeaveNoTraceInTheFlight) {
   }
   ASSERT_TRUE(coordinator->running()) << "the flight was over before the attack\n"
                                       << coordinator->output();
-  EXPECT_EQ(0, coordinator->wait(150.0)) << coordinator->output();
+  EXPECT_EQ(0, coordinator->wait(60.0 + 0.06 * messages)) << coordinator->output();
   for (Process* solver : {fluid.get(), flight.get(), wing.get()}) {
     EXPECT_EQ(0, solver->wait(5.0)) << solver->output();
   }
@@ -81,7 +81,7 @@ TEST_F(Nodes, HostileMessagesLeaveNoTraceInTheFlight) {
                 {"case:=climb", "fluid:=quasi_steady", "flaps:=" + std::to_string(flaps),
                  "record:=false", "out:=" + (folder / "alone")},
                 folder / "alone.log");
-  EXPECT_EQ(0, alone.wait(60.0)) << alone.output();
+  EXPECT_EQ(0, alone.wait(60.0 + 0.03 * messages)) << alone.output();
   const nlohmann::json attacked = summary(), undisturbed = summary("alone");
   const nlohmann::json& ignored = attacked["ignored_messages"];
   std::printf("sent: %lu forged, %lu foreign, %lu malformed, %lu old, %lu early\nignored: %s\n",

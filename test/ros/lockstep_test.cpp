@@ -188,6 +188,7 @@ TEST_F(Lockstep, ALostParticipantIsNoticedAtOnce) {
 TEST_F(Lockstep, AnInterruptEndsAWait) {
   solver.slow_phase = Phase::kIterate;
   solver.dawdle_s = 0.9;
+  run.limits.grace_s = 0.1;
   connect();
   client->exchange(request(0, 0, Phase::kStart));
   std::thread interrupt([this] {

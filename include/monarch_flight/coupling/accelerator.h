@@ -41,6 +41,8 @@ class Accelerator {
   virtual Proposal advance(const Trial& trial) = 0;
   /// The last trial of the step converged; it was not advanced from.
   virtual void endStep(const Trial& last);
+  /// What one step leaves to the next.
+  virtual void memory(StateVisitor&) {}
 };
 
 /// d^{k+1} = d^k + omega r^k.
@@ -83,6 +85,7 @@ class IqnIls : public Accelerator {
   void forget() override;
   Proposal advance(const Trial& trial) override;
   void endStep(const Trial& last) override;
+  void memory(StateVisitor& state) override;
 
  private:
   static constexpr int kCapacity = 64;  // differences kept; the oldest go first
@@ -116,6 +119,7 @@ class AddedMassNewton : public Accelerator {
   bool wantsOperator(int operator_cost) const override;
   Proposal advance(const Trial& trial) override;
   void endStep(const Trial& last) override;
+  void memory(StateVisitor& state) override;
 
  private:
   void learn(const Trial& trial);

@@ -6,11 +6,13 @@
 
 #include "monarch_flight/coupling/accelerator.h"
 #include "monarch_flight/coupling/interface_balance.h"
+#include "monarch_flight/coupling/keeper.h"
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/run_control.h"
 #include "monarch_flight/coupling/settings.h"
 #include "monarch_flight/coupling/step_model.h"
+#include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
 
@@ -45,8 +47,11 @@ class Coordinator {
 
   /// Runs all steps; level 0 is delivered first. `control` is asked before every sub-iteration. Never
   /// throws for a failed run: participants get ABORT, sinks get onEnd(failure), and the outcome
-  /// says why.
-  CoupledOutcome run(const std::vector<StepSink*>& sinks, RunControl& control);
+  /// says why. With a `keeper`, checkpoints are made of the steps that it names, of the last one,
+  /// and of the last committed one when the run is stopped or a step fails; a resumed run goes on
+  /// behind the keeper's step, bit for bit as if it had never ended.
+  CoupledOutcome run(const std::vector<StepSink*>& sinks, RunControl& control,
+                     Keeper* keeper = nullptr);
 
  private:
   struct Evaluation {  // one sub-iteration
@@ -56,11 +61,20 @@ class Coordinator {
   };
   struct Interrupted {};  // the control ends the run
   struct SetBack {};      // the control begins it again
+  class StepFailure : public NumericalError {  // no solver has committed the step
+   public:
+    using NumericalError::NumericalError;
+  };
 
-  void start(const std::vector<StepSink*>& sinks);
-  void deliver(const std::vector<StepSink*>& sinks, CommittedStep& step);
-  void startAgain(const std::vector<StepSink*>& sinks);
-  static void heed(RunControl& control, const CommittedStep& out);
+  std::uint32_t start();
+  void startAgain();
+  void resume();
+  void deliver(CommittedStep& step);
+  void heed(RunControl& control, const CommittedStep& out);
+  void memory(StateVisitor& state);
+  void keep(std::uint32_t step);
+  void keepBeforeStep(std::uint32_t step);
+  std::string rescue(std::uint32_t step);
   ExchangeKey keyOf(std::uint32_t step, std::uint32_t iteration, Phase phase) const;
   CommittedStep advance(std::uint32_t step, RunControl& control);
   void solve(RunControl& control, Evaluation& last, CommittedStep& out);
@@ -88,12 +102,15 @@ class Coordinator {
   std::array<Participant*, 3> participants_;
   std::uint64_t run_id_;
   std::uint32_t resets_ = 0;
+  std::vector<StepSink*> sinks_;  // of the run
+  Keeper* keeper_ = nullptr;      // of the run; none: no checkpoints
   StepModel step_model_;
   InterfaceBalance balance_;
   std::unique_ptr<Accelerator> accelerator_, cautious_;  // of first and of second attempts
   Matrix6d added_mass_ = Matrix6d::Zero();  // of the fluid, for the ratio
   int operator_cost_ = 0;                   // of the fluid, in evaluations
   Interface committed_;       // level n
+  StateSnapshot before_;                   // memory of level n, while a step is solved
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known
   double outputs_s_ = 0.0;                 // wall time of the sinks so far

@@ -9,6 +9,7 @@ namespace monarch_flight {
 /// Omega_dot_B, pitch (q, qd, qdd), theta_R (q, qd, qdd).
 using InterfaceValues = Eigen::Matrix<double, 30, 1>;
 InterfaceValues interfaceValues(const Interface& interface);
+Interface interfaceOf(const InterfaceValues& values);
 
 /// Whether two interfaces are the same bit for bit (NaN never is).
 bool same(const Interface& a, const Interface& b);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "monarch_flight/coupling/stop_flag.h"
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/insect/state.h"
 
@@ -18,7 +19,15 @@ const char* roleName(Role role);
 
 /// START: take the initial interface. ITERATE: compute from (committed state, request), keep nothing
 /// that a later ITERATE could see. COMMIT: keep the last answered ITERATE of this step. ABORT: end.
-enum class Phase : std::uint8_t { kStart = 0, kIterate = 1, kCommit = 2, kAbort = 3 };
+/// CHECKPOINT: write the committed state of `step` down. RESTORE: after START, take it up again.
+enum class Phase : std::uint8_t {
+  kStart = 0,
+  kIterate = 1,
+  kCommit = 2,
+  kAbort = 3,
+  kCheckpoint = 4,
+  kRestore = 5
+};
 const char* phaseName(Phase phase);
 
 /// Identifies a request and its reply. Never a time, never a sequence number of the transport.

@@ -5,6 +5,7 @@
 
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/state_visitor.h"
 #include "monarch_flight/flight/flight_solver.h"
 #include "monarch_flight/wing/wing_pitch_solver.h"
 
@@ -19,11 +20,17 @@ namespace monarch_flight {
 ///  which
 ///    becomes the committed state. The same COMMIT again gets the same answer.
 ///  - ABORT ends the run: only START is accepted after it.
+///  - CHECKPOINT and RESTORE need a file; whoever has one calls `checkpoint` and `restore`
+///    (run/kept_participant.h).
 /// Wrong keys, non-finite numbers and exceptions of a solver end in Reply::error, which names
 /// participant, step, iteration and phase; the committed state stays as it was.
 class SolverParticipant : public Participant {
  public:
   Reply exchange(const Request& request) final;
+  /// Shows the committed state. Throws std::invalid_argument when `key` names another run or step.
+  void checkpoint(const ExchangeKey& key, StateVisitor& state);
+  /// Takes up the state of step key.step; the run must have been started. The same exceptions.
+  void restore(const ExchangeKey& key, StateVisitor& state);
 
  protected:
   SolverParticipant(Role role, const CoupledModel& model);
@@ -36,6 +43,8 @@ class SolverParticipant : public Participant {
   virtual void onIterate(const Request& request, Reply& reply) = 0;
   /// The answered guess is about to become the committed state.
   virtual void onCommit(const Request& request, Reply& reply) = 0;
+  /// What the solver itself carries from step to step.
+  virtual void memory(StateVisitor&) {}
   /// Whether `committed` is the part of the guess that the participant answered for.
   virtual bool sameGuess(const Interface& answered, const Interface& committed) const = 0;
 
@@ -44,7 +53,7 @@ class SolverParticipant : public Participant {
   void iterate(const Request& request, Reply& reply);
   void commit(const Request& request, Reply& reply);
   void abort(const Request& request);
-  void requireRun(const Request& request) const;
+  void requireRun(const ExchangeKey& key) const;
   void requireNextStep(const Request& request) const;
 
   Role role_;
@@ -68,6 +77,7 @@ class FluidParticipant : public SolverParticipant {
   void onStart(const Request& request, Reply& reply) override;
   void onIterate(const Request& request, Reply& reply) override;
   void onCommit(const Request& request, Reply& reply) override;
+  void memory(StateVisitor& state) override;
   bool sameGuess(const Interface& answered, const Interface& committed) const override;
   WingMotion wingMotion(const Request& request) const;
 

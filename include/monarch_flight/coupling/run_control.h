@@ -12,7 +12,8 @@ class RunControl {
   enum class Order {
     kGoOn,
     kStop,  ///< end the run; the last committed step stays good
-    kReset  ///< back to level 0; everything flown so far is void
+    kReset,      ///< back to level 0; everything flown so far is void
+    kCheckpoint  ///< keep the last committed step, then ask again
   };
   virtual ~RunControl() = default;
   /// Steps before `step` are committed, `iteration` is the number of the sub-iteration that comes

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/state_visitor.h"
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/insect/newmark.h"
 #include "monarch_flight/insect/state.h"
@@ -78,6 +79,9 @@ class StepSink {
  public:
   virtual ~StepSink() = default;
   virtual void onStep(const CommittedStep& step) = 0;
+  /// A checkpoint is made: makes durable what has been written so far, and shows how to go on from
+  /// here. A sink that goes on from a checkpoint is made with what it has shown.
+  virtual void onCheckpoint(StateVisitor&) {}
   /// The run goes back to its start: what has been delivered is void, level 0 comes again.
   virtual void onReset() = 0;
   /// The run is over; `failure` is empty after a complete run. Called exactly once.

@@ -13,6 +13,8 @@ namespace monarch_flight {
 /// (x east, y north, z up), SI; what they hold: docs/fields.md. A file is renewed as a whole and is
 /// never half-written. Throws InputError when this build has no VTK; the sink's onStep throws
 /// OutputError.
-std::unique_ptr<StepSink> makeFieldOutput(const Case& c, const std::string& folder);
+/// `resumed`: what onCheckpoint has shown, for a run that goes on.
+std::unique_ptr<StepSink> makeFieldOutput(const Case& c, const std::string& folder,
+                                          StateVisitor* resumed = nullptr);
 
 }  // namespace monarch_flight

@@ -70,6 +70,8 @@ class FlightMessages {
   std::vector<StampedMessage> opening() const;
   /// What follows from a step, /clock first.
   std::vector<StampedMessage> of(const CommittedStep& step);
+  /// The path flown, to keep and to go on from.
+  void memory(StateVisitor& state);
 
  private:
   bool growPath(const CommittedStep& step, const ros::Time& stamp);
@@ -93,6 +95,10 @@ class MessageOutput {
   virtual void write(const StampedMessage& message) = 0;
   /// What has been written is void; the opening and level 0 come again.
   virtual void restart() = 0;
+  /// See StepSink::onCheckpoint.
+  virtual void onCheckpoint(StateVisitor&) {}
+  /// Whether it goes on from a checkpoint, the opening included.
+  virtual bool resumed() const { return false; }
   /// The run is over.
   virtual void close() = 0;
 };
@@ -101,9 +107,11 @@ class MessageOutput {
 class MessageSink : public StepSink {
  public:
   /// Opens the outputs and writes what comes before the first step. Outputs must outlive the sink.
-  MessageSink(const Case& c, std::vector<MessageOutput*> outputs);
+  /// `resumed`: what `onCheckpoint` has shown, for a run that goes on.
+  MessageSink(const Case& c, std::vector<MessageOutput*> outputs, StateVisitor* resumed = nullptr);
   void onStep(const CommittedStep& step) override;
   void onReset() override;
+  void onCheckpoint(StateVisitor& state) override;
   void onEnd(const std::string& failure) override;
 
  private:

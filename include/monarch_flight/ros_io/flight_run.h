@@ -16,8 +16,10 @@ namespace monarch_flight {
 /// bar. The same for the coordinator node and for a run in one process.
 class FlightRun {
  public:
-  /// Makes the folder `out`. `listeners` also get the messages. Throws InputError, OutputError.
-  FlightRun(const Case& c, const std::string& out, std::vector<MessageOutput*> listeners);
+  /// Makes the folder `out`, or goes on from the newest checkpoint in it (`resume`) and says from
+  /// which. `listeners` also get the messages. Throws InputError, OutputError.
+  FlightRun(const Case& c, const std::string& out, bool resume,
+            std::vector<MessageOutput*> listeners);
   /// Delivers to `sink`, too, after everything is written; it must outlive this.
   void addSink(StepSink& sink) { last_.push_back(&sink); }
   /// Flies as `control` says; prints the end; returns an exit code (`stop`: stopped by hand).
@@ -25,7 +27,11 @@ class FlightRun {
           RunControl& control, const StopFlag& stop);
 
  private:
+  void tell() const;
+  void openBag(std::vector<MessageOutput*>& listeners);
+
   const Case& case_;
+  Checkpoints checkpoints_;
   std::unique_ptr<StepSink> fields_;  // before the folder: a build without VTK refuses
   RunOutputs files_;
   std::unique_ptr<BagOutput> bag_;

@@ -28,6 +28,9 @@ struct LockstepLimits {
   double exchange_s = 60.0;  ///< one request until its reply (the watchdog)
   double start_s = 600.0;    ///< the same for START, which builds and factorises the grid
   double silence_s = 180.0;  ///< participant: between two requests
+  /// How long both ends go on after an interrupt, so that a last checkpoint can be made; roslaunch
+  /// interrupts all nodes at once and waits 15 s for them.
+  double grace_s = 10.0;
 };
 
 /// Limits that follow from the watchdog of a case: START may take ten times as long as an exchange;

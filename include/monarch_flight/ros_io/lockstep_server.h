@@ -13,7 +13,8 @@ namespace monarch_flight {
 ///    of the run's token (forged) are counted and ignored.
 class LockstepServer {
  public:
-  /// `participant` and `stop` must outlive this. `stop` ends every wait.
+  /// `participant` and `stop` must outlive this. `stop` ends every wait, that for requests after
+  /// limits.grace_s.
   LockstepServer(const ros::NodeHandle& node, const LockstepIdentity& identity,
                  Participant& participant, const LockstepLimits& limits, const StopFlag& stop);
 
@@ -29,9 +30,11 @@ class LockstepServer {
   void onRequest(const ParticipantRequestConstPtr& request);
   void waitForCoordinator();
   void letCoordinatorLeave();
+  bool graceIsOver();
   [[noreturn]] void refuse();
   Reply answer(const Request& request);
   void compute(const ParticipantRequest& request);
+  void keep(const ParticipantRequest& request);
   void reply(ParticipantReply& message);
   bool coordinatorListens() const;
 
@@ -50,9 +53,10 @@ class LockstepServer {
   bool started_ = false;       // START has been answered
   bool iterating_ = false;     // START of all participants is over
   bool ended_ = false;         // the coordinator has ended the run
-  ros::WallTime last_heard_;
+  ros::SteadyTime last_heard_, stopped_;
   ParticipantReply cache_;    // the last good answer, when started_
   ParticipantReply failure_;  // the last failure; error is empty while there is none
+  ParticipantReply kept_;     // the last good answer to CHECKPOINT, which may come within a step
 };
 
 }  // namespace monarch_flight

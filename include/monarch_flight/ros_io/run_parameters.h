@@ -15,13 +15,19 @@ namespace monarch_flight {
 struct RunParameters {
   std::string name = "climb";  ///< `case`: name or path of the case file
   std::string out;             ///< folder of the results; empty: flights/<case>-<time>
+  std::string resume;          ///< folder of a run to go on with; empty: a new run
   std::string directory;       ///< where relative paths start; empty: the working directory
-  CaseOverrides overrides;     ///< fluid, grid, flaps, steps_per_flap, record, fields_every
+  /// fluid, grid, flaps, steps_per_flap, record, fields_every, checkpoint_every
+  CaseOverrides overrides;
   bool plan = false;           ///< `plan`: tell what the run means and end (command line only)
   int ranks = 1;               ///< `ranks`: processes of the flow solver
   bool paused = false;         ///< `paused`: hold the run at its start (nodes only)
   double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
 };
+
+/// Name of the ROS parameter, below /monarch_flight, in which the coordinator tells the solver nodes
+/// the folder of the checkpoints: no message ever names a file.
+constexpr char kCheckpointsKey[] = "checkpoints";
 
 /// Checks keys and values. `where` is put before a key in messages ("/monarch_flight/" or "").
 /// Throws InputError with every fault: unknown keys, ranks that are no whole number > 0, a watchdog

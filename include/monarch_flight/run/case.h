@@ -32,6 +32,7 @@ struct OutputSettings {
   int surface_every = 10;        ///< steps between wing-pressure pictures (0: never)
   int fields_every = 0;          ///< steps between files of the whole flow (0: never)
   int vortices_every = 50;       ///< steps between vortex pictures (0: never)
+  int checkpoint_every = 250;    ///< steps between checkpoints (0: never)
 };
 
 /// Everything a run needs, checked and complete. Made by loadCase; never half-valid.
@@ -55,7 +56,8 @@ struct Case {
   std::string sha256;            ///< of resolved_yaml, hex: what the handshake compares
 };
 
-/// `overrides` from the command line: fluid, grid, flaps, steps_per_flap, record, fields_every (each a YAML scalar).
+/// `overrides` from the command line: fluid, grid, flaps, steps_per_flap, record, fields_every,
+/// checkpoint_every (each a YAML scalar).
 using CaseOverrides = std::map<std::string, std::string>;
 
 /// Reads a case by name (config/cases/<name>.yaml under `config_dir`) or by path; applies overrides;

@@ -7,11 +7,16 @@
 
 namespace monarch_flight {
 
+/// Shows where the table `name` stands in a checkpoint.
+void showMark(StateVisitor& state, const std::string& name, OutputMark& mark);
+
 /// flight.csv: one row per committed step, level 0 included; SI and radians, 17 significant digits.
 class FlightTable {
  public:
-  explicit FlightTable(const std::string& path);
+  /// `resumed`: what `onCheckpoint` has shown, for a table that goes on.
+  explicit FlightTable(const std::string& path, StateVisitor* resumed = nullptr);
   void append(const CommittedStep& step);
+  void onCheckpoint(StateVisitor& state);
   OutputFile& file() { return file_; }
   /// The column names, comma separated, in the order of the rows.
   static const std::string& header();
@@ -25,8 +30,9 @@ class FlightTable {
 /// iterations.csv: one row per sub-iteration of every committed step.
 class IterationTable {
  public:
-  explicit IterationTable(const std::string& path);
+  explicit IterationTable(const std::string& path, StateVisitor* resumed = nullptr);
   void append(const CommittedStep& step);
+  void onCheckpoint(StateVisitor& state);
   OutputFile& file() { return file_; }
   static const std::string& header();
 

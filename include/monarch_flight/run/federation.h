@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "monarch_flight/coupling/keeper.h"
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/run_control.h"
@@ -14,8 +15,10 @@ namespace monarch_flight {
 std::unique_ptr<FluidModel> makeFluid(const Case& c);
 /// What coordinator and participants need to know of the case.
 CoupledModel makeModel(const Case& c);
-/// The in-process participant for a role; the ROS nodes wrap exactly these.
-std::unique_ptr<Participant> makeParticipant(Role role, const Case& c);
+/// The in-process participant for a role; the ROS nodes wrap exactly these. `checkpoints`: folder in
+/// which it keeps its part of them.
+std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
+                                             const std::string& checkpoints);
 
 /// Result of a run as written to summary.json.
 struct RunResult {
@@ -28,14 +31,17 @@ struct RunResult {
 /// A sink that throws in onStep ends the run with its message; one that throws in onEnd makes it
 /// failed, and the sinks behind it are ended with that failure.
 RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
-                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control);
+                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control,
+                  Keeper* keeper = nullptr);
 
 /// Fluid, flight and wing of a case in one process, without ROS.
 class InProcessFederation {
  public:
-  explicit InProcessFederation(const Case& c);
+  /// `checkpoints`: their folder; needed for a run with a keeper.
+  explicit InProcessFederation(const Case& c, const std::string& checkpoints = "");
   /// Flies until the end or until `stop` is set.
-  RunResult run(std::uint64_t run_id, const std::vector<StepSink*>& sinks, const StopFlag& stop);
+  RunResult run(std::uint64_t run_id, const std::vector<StepSink*>& sinks, const StopFlag& stop,
+                Keeper* keeper = nullptr);
   Participant& participant(Role role) { return *participants_[static_cast<int>(role)]; }
 
  private:

@@ -14,6 +14,8 @@ class ProgressSink : public StepSink {
  public:
   /// `out` must outlive the sink; `terminal` says whether a line can be redrawn on it.
   ProgressSink(std::ostream& out, bool terminal, const TimeGrid& time);
+  /// Of a run that goes on behind a step.
+  void resumeAt(std::uint32_t step) { first_ = step; }
   void onStep(const CommittedStep& step) override;
   void onReset() override;
   void onEnd(const std::string& failure) override;
@@ -26,6 +28,7 @@ class ProgressSink : public StepSink {
   TimeGrid time_;
   std::chrono::steady_clock::time_point begin_, drawn_;
   std::uint32_t next_tenth_ = 1;
+  std::uint32_t first_ = 0;  // step that was there at begin_
   std::size_t width_ = 0;  // of the line on the terminal
 };
 

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "monarch_flight/run/checkpoints.h"
 #include "monarch_flight/run/csv_tables.h"
 #include "monarch_flight/run/run_directory.h"
 #include "monarch_flight/run/summary.h"
@@ -15,13 +16,16 @@ namespace monarch_flight {
 /// failures.
 class RunOutputs : public StepSink {
  public:
-  /// Makes the folder. Throws InputError (see RunDirectory) and OutputError.
-  RunOutputs(const Case& c, const std::string& directory);
+  /// Makes the folder, or goes on from the checkpoint that `resumed` has chosen: the tables are cut
+  /// to its length. Throws InputError (see RunDirectory), OutputError and CheckpointError.
+  RunOutputs(const Case& c, const std::string& directory, Checkpoints* resumed = nullptr);
 
   /// Throws OutputError, which ends the run.
   void onStep(const CommittedStep& step) override;
   /// Files and figures begin anew. Throws OutputError.
   void onReset() override;
+  /// Throws OutputError.
+  void onCheckpoint(StateVisitor& state) override;
   /// Throws OutputError when a file could not be finished; all others are finished nevertheless.
   void onEnd(const std::string& failure) override;
 
@@ -29,7 +33,7 @@ class RunOutputs : public StepSink {
 
  private:
   struct Files {
-    Files(const Case& c, const RunDirectory& directory);
+    Files(const Case& c, const RunDirectory& directory, StateVisitor* resumed);
     FlightTable flight;
     IterationTable iterations;
     Summary summary;

@@ -1,8 +1,8 @@
 #pragma once
-#include <memory>
 #include <string>
 
 #include "monarch_flight/coupling/settings.h"
+#include "monarch_flight/run/sha256.h"
 
 namespace monarch_flight {
 
@@ -12,15 +12,13 @@ namespace monarch_flight {
 /// hash: the same flight bit for bit.
 class StateHash {
  public:
-  StateHash();
-  ~StateHash();
   void add(const CommittedStep& step);
   /// Of everything added so far, lower-case hex. More may be added afterwards.
-  std::string hex() const;
+  std::string hex() const { return hash_.hex(); }
+  void memory(StateVisitor& state);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Sha256 hash_;
 };
 
 }  // namespace monarch_flight

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "monarch_flight/run/case.h"
+#include "monarch_flight/run/checkpoints.h"
 #include "monarch_flight/run/state_hash.h"
 
 namespace monarch_flight {
@@ -27,10 +28,14 @@ class Summary {
  public:
   explicit Summary(const Case& c);
   void add(const CommittedStep& step);
+  void onCheckpoint(StateVisitor& state) { memory(state); }
+  /// Goes on from what onCheckpoint has shown.
+  void resume(StateVisitor& state, const Resumption& resumption);
   /// The text of summary.json; `failure` is empty after a complete run.
   std::string json(const std::string& failure) const;
 
  private:
+  void memory(StateVisitor& state);
   Eigen::Vector3d meanVelocity() const;
   void addWork(const CommittedStep& step);
   void addTimes(const CommittedStep& step);
@@ -52,10 +57,14 @@ class Summary {
   std::array<double, 3> wall_{};
   double exchange_ = 0.0, coupling_ = 0.0, outputs_ = 0.0;
   KernelTimes kernels_{};
+  double outputs_before_ = 0.0;    // of the parts flown before a resumption, as the next one
+  KernelTimes kernels_before_{};
   long cells_ = 0;
   Matrix6d added_mass_ = Matrix6d::Zero();
   IgnoredMessages ignored_;
   StateHash hash_;
+  double wall_before_ = 0.0;    // of the parts flown before a resumption [s]
+  std::string resumed_ = "[]";  // JSON: where and how the run went on
 };
 
 }  // namespace monarch_flight

@@ -1,0 +1,36 @@
+#include "monarch_flight/run/kept_participant.h"
+
+#include <chrono>
+
+namespace monarch_flight {
+
+Reply KeptParticipant::exchange(const Request& request) {
+  const ExchangeKey& key = request.key;
+  if (key.phase != Phase::kCheckpoint && key.phase != Phase::kRestore)
+    return solver_->exchange(request);
+  const auto begin = std::chrono::steady_clock::now();
+  Reply reply;
+  reply.key = key;
+  reply.interface = request.interface;
+  const std::string part = roleName(role_);
+  try {
+    if (key.phase == Phase::kCheckpoint) {
+      StateRecord record;
+      StateWriter writer(record);
+      solver_->checkpoint(key, writer);
+      files_.write(key.step, part, record);
+    } else {
+      const StateRecord record = files_.read(key.step, part);
+      StateReader reader(record, files_.path(key.step) + "/" + part + ".h5");
+      solver_->restore(key, reader);
+    }
+  } catch (const std::exception& e) {
+    reply.error = part + ", step " + std::to_string(key.step) + ", " + phaseName(key.phase) +
+                  ": " + e.what();
+  }
+  reply.wall_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return reply;
+}
+
+}  // namespace monarch_flight
