@@ -9,22 +9,45 @@ namespace {
 
 constexpr double kDissipation = 1.0 / 32;  ///< fourth difference, at Courant numbers of 1 and above
 
-/// One direction of a A, seen from the points of a row: faces below and above each of them.
-struct Transport {
-  const double *lower_a, *lower_b;  ///< convecting velocities on both sides of the lower face
-  const double *upper_a, *upper_b;
-  const double *before, *after;  ///< neighbours of v
-  double half_a, diffusion;      ///< a / 2, a nu, over the width of the control volume along y or z
-  double lower, upper;           ///< 1 / distance to the neighbours along y or z
-
-  double at(int i, const double* __restrict v, double width, double lower_distance,
-            double upper_distance) const {
-    const double mean_lower = 0.5 * (lower_a[i] + lower_b[i]);
-    const double mean_upper = 0.5 * (upper_a[i] + upper_b[i]);
-    return width * ((half_a * mean_upper - diffusion * upper_distance) * (after[i] - v[i]) -
-                    (half_a * mean_lower + diffusion * lower_distance) * (before[i] - v[i]));
-  }
+/// Convecting velocities around the points of a row: those of their lower faces are the means of
+/// `lower` and `lower_before`, those of the upper faces of `upper` and `upper_before`.
+struct FaceVelocities {
+  const double *lower, *lower_before, *upper, *upper_before;
 };
+
+/// d -= a A_x v.
+void subtractAlongRow(const FaceVelocities& f, double half_a, double diffusion,
+                      const double* __restrict width, const double* __restrict distance,
+                      const double* __restrict v, int i0, int i1, double* __restrict d) {
+  const double* __restrict l = f.lower;
+  const double* __restrict lb = f.lower_before;
+  const double* __restrict u = f.upper;
+  const double* __restrict ub = f.upper_before;
+  for (int i = i0; i <= i1; ++i) {
+    const double below = 0.5 * half_a * (l[i] + lb[i]) + diffusion * distance[i];
+    const double above = 0.5 * half_a * (u[i] + ub[i]) - diffusion * distance[i + 1];
+    d[i] -= width[i] * (above * (v[i + 1] - v[i]) - below * (v[i - 1] - v[i]));
+  }
+}
+
+/// d -= a A v along y or z, `s` the stride there; inverse distances to the neighbours.
+void subtractAcrossRows(const FaceVelocities& f, double half_a, double diffusion,
+                        double distance_below, double distance_above, std::ptrdiff_t s,
+                        const double* __restrict v, int i0, int i1, double* __restrict d) {
+  const double* __restrict l = f.lower;
+  const double* __restrict lb = f.lower_before;
+  const double* __restrict u = f.upper;
+  const double* __restrict ub = f.upper_before;
+  const double* __restrict before = v - s;
+  const double* __restrict after = v + s;
+  const double friction_below = diffusion * distance_below;
+  const double friction_above = diffusion * distance_above, quarter = 0.5 * half_a;
+  for (int i = i0; i <= i1; ++i) {
+    const double below = quarter * (l[i] + lb[i]) + friction_below;
+    const double above = quarter * (u[i] + ub[i]) - friction_above;
+    d[i] -= above * (after[i] - v[i]) - below * (before[i] - v[i]);
+  }
+}
 
 /// d -= min(scale |f(i) + f(i + o)|, share) * fourth difference of v with stride s, scale(i) = x[i]
 /// * scale_row.
@@ -43,34 +66,25 @@ void subtractFourth(const double* __restrict v, std::ptrdiff_t s, const double* 
 
 }  // namespace
 
-void Momentum::subtractTransport(const Velocity& c, int component, int j, int k,
-                                 const double* __restrict v, double* __restrict d) const {
-  const int index[3] = {0, j, k};
-  Transport along[3];
+void Momentum::subtractTransport(const Velocity& c, int component, int j, int k, const double* v,
+                                 double* d) const {
+  const int i0 = first(component, 0), i1 = last(component, 0), index[3] = {0, j, k};
+  const double half_a = 0.5 * step_.a, diffusion = step_.a * step_.nu;
   for (int direction = 0; direction < 3; ++direction) {
     const std::ptrdiff_t s = layout_.stride(direction);
     const std::ptrdiff_t o = component == direction ? s : layout_.stride(component);
     const double* f = c.c[direction].data() + layout_.at(0, j, k);
+    const FaceVelocities velocities{f, f - o, f + s, f + s - o};
     const Direction& m = metric_[component][direction];
-    const int n = index[direction];
-    const double width = direction == 0 ? 1 : m.inverse_width[n];
-    along[direction] = {f,
-                        f - o,
-                        f + s,
-                        f + s - o,
-                        v - s,
-                        v + s,
-                        0.5 * step_.a * width,
-                        step_.a * step_.nu * width,
-                        m.inverse_distance[n],
-                        m.inverse_distance[n + 1]};
-  }
-  const Transport &x = along[0], &y = along[1], &z = along[2];
-  const double* __restrict iw = metric_[component][0].inverse_width.data();
-  const double* __restrict distance = metric_[component][0].inverse_distance.data();
-  for (int i = first(component, 0), end = last(component, 0); i <= end; ++i) {
-    d[i] -= x.at(i, v, iw[i], distance[i], distance[i + 1]) + y.at(i, v, 1, y.lower, y.upper) +
-            z.at(i, v, 1, z.lower, z.upper);
+    const double* distance = m.inverse_distance.data() + index[direction];
+    if (direction == 0) {
+      subtractAlongRow(velocities, half_a, diffusion, m.inverse_width.data(), distance, v, i0, i1,
+                       d);
+    } else {
+      const double width = m.inverse_width[index[direction]];
+      subtractAcrossRows(velocities, half_a * width, diffusion * width, distance[0], distance[1], s,
+                         v, i0, i1, d);
+    }
   }
 }
 
