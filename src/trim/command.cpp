@@ -22,24 +22,26 @@ std::size_t size(const Case& c, const TrimOptions& options) {
 Eigen::MatrixXd readJacobian(const std::string& path, const Case& c, const TrimOptions& options) {
   std::ifstream in(path);
   const auto columns = static_cast<Eigen::Index>(size(c, options));
-  const Eigen::Index rows = columns -
-                            static_cast<Eigen::Index>(options.parameters.size()) +
-                            static_cast<Eigen::Index>(options.targets.size());
-  Eigen::Index found_rows = 0, found_columns = 0;
-  Eigen::MatrixXd J(rows, columns);
-  in >> found_rows >> found_columns;
-  if (!in || found_rows != rows || found_columns != columns) {
-    throw InputError("jacobian:=" + path + ": must hold a matrix of " + std::to_string(rows) + " x " +
+  const Eigen::Index states = columns - static_cast<Eigen::Index>(options.parameters.size());
+  const auto targets = static_cast<Eigen::Index>(options.targets.size());
+  Eigen::Index rows = 0, found_columns = 0;
+  in >> rows >> found_columns;
+  const Eigen::Index beyond = rows - states;  // targets of one flap or more
+  const bool whole = targets > 0 ? beyond > 0 && beyond % targets == 0 : beyond == 0;
+  if (!in || found_columns != columns || !whole || beyond > 100 * targets) {
+    throw InputError("jacobian:=" + path + ": must hold a matrix of " + std::to_string(states) +
+                     " + " + std::to_string(targets) + " a flap rows and " +
                      std::to_string(columns) +
-                     ", as a trim with the same fit and targets writes it; give that one");
+                     " columns, as a trim with the same fit and targets writes it; give that one");
   }
+  Eigen::MatrixXd J(rows, columns);
   for (Eigen::Index i = 0; i < rows; ++i) {
     for (Eigen::Index j = 0; j < columns; ++j) in >> J(i, j);
   }
   if (!in || !J.allFinite()) {
     throw InputError("jacobian:=" + path + ": holds too few numbers; write it again");
   }
-  return J;
+  return overHorizon(J, states, targets, options.horizon);
 }
 
 void write(const std::string& path, const std::string& text) {
@@ -51,8 +53,8 @@ void write(const std::string& path, const std::string& text) {
 void writeResult(const std::string& path, const FlapMap& map, const TrimOptions& options,
                  const TrimResult& result, int flaps) {
   const double per_flap = map.baseCase().time.stepsPerFlap();
-  const int run_in = map.runIn() > 0 ? static_cast<int>(std::lround(map.runIn() * per_flap))
-                                     : kShortRunIn;
+  const int run_in =
+      map.runIn() > 0 ? static_cast<int>(std::lround(map.runIn() * per_flap)) : kShortRunIn;
   write(path, trimmedCase(map, options, result, run_in, flaps));
   const Eigen::MatrixXd& J = result.newton.jacobian;
   std::ostringstream text;
@@ -62,7 +64,8 @@ void writeResult(const std::string& path, const FlapMap& map, const TrimOptions&
 }
 
 void printFlight(std::ostream& out, const Flight& flight) {
-  out << "flap  climb deg  speed m/s  theta_B mean, swing, largest deg  theta_R swing deg  change\n";
+  out << "flap  climb deg  speed m/s  theta_B mean, swing, largest deg  theta_R swing deg  "
+         "change\n";
   int number = 0;
   for (const Flap& flap : flight.flaps) {
     const FlapState change = (flap.end - flap.start).cwiseQuotient(trimScales());

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRadians = M_PI / 180.0;
 const char kKnown[] =
-    "case, fluid, grid, steps_per_flap, fit, climb, speed, pitch, swing, start, run_in, "
+    "case, fluid, grid, steps_per_flap, fit, climb, speed, pitch, swing, horizon, start, run_in, "
     "iterations, tolerance, difference, threads, jacobian, out, fly";
 
 /// All key:=value arguments, with what is wrong in them.
@@ -154,6 +154,11 @@ TrimCommand trimCommand(const std::vector<std::string>& given) {
   options.targets = targets(arguments);
   readStart(arguments, options);
   options.run_in = arguments.whole("run_in", 0, 100, quick ? 0 : 1);
+  options.horizon = arguments.whole("horizon", 1, 100, 1);
+  if (options.horizon > 1 && options.targets.empty()) {
+    arguments.faults.push_back("horizon:=" + arguments.text("horizon") +
+                               ": needs targets to meet; give climb, speed, pitch or swing");
+  }
   NewtonSettings& newton = options.newton;
   newton.max_iterations = arguments.whole("iterations", 0, 1000, quick ? 40 : 8);
   newton.tolerance = arguments.number("tolerance", 1e-12, 1.0, quick ? 1e-6 : 0.02);
@@ -167,6 +172,12 @@ TrimCommand trimCommand(const std::vector<std::string>& given) {
     newton.damping = 0.1;
     newton.weight = options.targets.empty() ? 0.0 : 5.0;
     newton.step_tolerance = 0.05;
+  }
+  if (options.horizon > 1) {  // each flap is sought, not that the first comes back to its start
+    newton.weight = 0.5;
+    newton.max_step = 0.2;  // grows from flap to flap
+    newton.max_halvings = 6;
+    newton.least_squares = true;
   }
   command.jacobian_file = arguments.text("jacobian");
   command.out = arguments.text("out");

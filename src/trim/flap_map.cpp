@@ -36,7 +36,8 @@ const std::vector<TrimParameter>& trimParameters() {
       {"kappa", {"insect", "wing", "kappa"}, "N m/rad", 2e-5, 0, 0},
       {"theta_0", {"insect", "wing", "theta_0"}, "rad", 0.1, 0, 0},
       {"root_x", {"insect", "wing", "root", "0"}, "m", 5e-4, 0, 0},
-      {"root_z", {"insect", "wing", "root", "2"}, "m", 5e-4, 0, 0}};
+      {"root_z", {"insect", "wing", "root", "2"}, "m", 5e-4, 0, 0},
+      {"hinge", {"insect", "wing", "planform", "hinge"}, "of the outline's unit", 0.05, 0, 0}};
   return all;
 }
 

@@ -97,6 +97,7 @@ VectorXd bounded(VectorXd step, const VectorXd& at, Index n, double limit,
 }
 
 bool done(const NewtonResult& r, const VectorXd& step, Index n, const NewtonSettings& settings) {
+  if (settings.least_squares) return step.cwiseAbs().maxCoeff() <= settings.step_tolerance;
   if (r.residual.periodicity.cwiseAbs().maxCoeff() > settings.tolerance) return false;
   if (step.size() == n) return true;
   return step.tail(step.size() - n).cwiseAbs().maxCoeff() <= settings.step_tolerance;
@@ -222,7 +223,9 @@ NewtonResult solveTrim(const TrimFunction& f, const VectorXd& start, const Newto
       r.jacobian = differenceJacobian(f, r.unknowns, r.residual, settings, r.evaluations);
     }
     VectorXd step = trimStep(r.jacobian, r.residual, r.unknowns, settings, limit);
-    r.converged = done(r, step, n, settings);
+    // A step that is short only because the last ones failed does not tell of a minimum.
+    const VectorXd free = trimStep(r.jacobian, r.residual, r.unknowns, settings, settings.max_step);
+    r.converged = done(r, free, n, settings);
     if (r.converged || r.iterations == settings.max_iterations) break;
     const auto next = search(f, r, step, limit, settings);
     if (!next) {

@@ -19,17 +19,19 @@ std::string number(double value, int digits = 6) {
   return text;
 }
 
-std::string targetText(const TrimTarget& target, const Flap& flap) {
+std::string targetText(const TrimTarget& target, const std::vector<Flap>& flaps) {
   const bool angle = target.kind != TrimTarget::kSpeed;
   const double unit = angle ? kDegrees : 1.0;
+  std::string reached;
+  for (const Flap& flap : flaps) reached += ' ' + number(target.of(flap) * unit, 4);
   return std::string(TrimTarget::name(target.kind)) + " " + number(target.value * unit, 4) +
-         (angle ? " deg" : " m/s") + " (reached " + number(target.of(flap) * unit, 4) + ")";
+         (angle ? " deg" : " m/s") + " (reached" + reached + ")";
 }
 
 std::string targetsText(const TrimOptions& options, const TrimResult& result) {
   std::string text;
   for (const TrimTarget& target : options.targets) {
-    text += (text.empty() ? "" : ", ") + targetText(target, result.flap);
+    text += (text.empty() ? "" : ", ") + targetText(target, result.flaps);
   }
   return text.empty() ? "nothing" : text;
 }
@@ -52,8 +54,8 @@ void printModes(std::ostream& out, const FlapMap& map, const TrimResult& result)
   for (int i : map.active()) out << ' ' << trimScales()(i) << ' ' << kStateUnits[i];
   out << ":\n";
   for (const FloquetMode& mode : result.floquet) {
-    out << "  |" << number(std::abs(mode.multiplier), 4) << "|  " << number(mode.multiplier.real(), 4)
-        << (mode.multiplier.imag() < 0 ? " - " : " + ")
+    out << "  |" << number(std::abs(mode.multiplier), 4) << "|  "
+        << number(mode.multiplier.real(), 4) << (mode.multiplier.imag() < 0 ? " - " : " + ")
         << number(std::abs(mode.multiplier.imag()), 4) << "i :";
     for (const auto& component : mode.mode) {
       out << "  " << number(std::abs(component), 2) << '@'
@@ -67,10 +69,11 @@ void printModes(std::ostream& out, const FlapMap& map, const TrimResult& result)
 
 void printTrim(std::ostream& out, const FlapMap& map, const TrimOptions& options,
                const TrimResult& result) {
-  const Flap& flap = result.flap;
-  out << "trim of " << map.baseCase().name << " (" << airText(map) << "): "
-      << result.newton.reason << "\n";
-  out << "  residual        " << number(residual(result), 3) << " (largest change over a flap, scaled)\n";
+  const Flap& flap = result.flaps.front();
+  out << "trim of " << map.baseCase().name << " (" << airText(map) << "): " << result.newton.reason
+      << "\n";
+  out << "  residual        " << number(residual(result), 3)
+      << " (largest change over a flap, scaled)\n";
   out << "  cost            " << result.newton.iterations << " iterations, "
       << result.newton.evaluations << " evaluations, " << result.flaps_flown << " flaps, "
       << number(result.wall_s, 3) << " s\n";
@@ -99,13 +102,15 @@ std::string trimmedCase(const FlapMap& map, const TrimOptions& options, const Tr
   edit.set({"name"}, map.baseCase().name + "_trimmed");
   edit.set({"description"}, "Periodic flight found by trim from the case " + map.baseCase().name);
   const std::string how =
-      "fitted by trim to periodic flight in " + airText(map) + "; residual " +
-      number(residual(result), 3) + " (scaled) over a flap";
+      "fitted by trim to " +
+      (options.horizon > 1 ? std::to_string(options.horizon) + " free flaps" : "periodic flight") +
+      " in " + airText(map) + "; residual " + number(residual(result), 3) + " (scaled) over a flap";
   std::map<std::string, std::string> comments;
   for (const TrimParameter& p : map.parameters()) {
     std::string path;
     for (const std::string& key : p.path) {
-      if (!std::isdigit(static_cast<unsigned char>(key[0]))) path += (path.empty() ? "" : "/") + key;
+      if (!std::isdigit(static_cast<unsigned char>(key[0])))
+        path += (path.empty() ? "" : "/") + key;
     }
     comments[path] = "status: fitted by trim in " + airText(map) + " within " + number(p.low) +
                      " to " + number(p.high) + " " + p.unit + ",\nto " +

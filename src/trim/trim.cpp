@@ -53,40 +53,42 @@ class Search {
   }
 
   std::optional<TrimResidual> residual(const VectorXd& y) {
-    const Flight flight = map_.fly(point(y), 1);
-    flown_ += 1 + map_.runIn();
+    const Flight flight = map_.fly(point(y), options_.horizon);
+    flown_ += options_.horizon + map_.runIn();
     if (!flight.complete || flight.flaps.empty()) return std::nullopt;
-    const Flap& flap = flight.flaps[0];
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      recent_.emplace_back(y, flap);
+      recent_.emplace_back(y, flight.flaps);
     }
-    return residualOf(flap);
+    return residualOf(flight.flaps);
   }
 
-  TrimResidual residualOf(const Flap& flap) const {
+  TrimResidual residualOf(const std::vector<Flap>& flaps) const {
     TrimResidual r;
-    const FlapState change = (flap.end - flap.start).cwiseQuotient(trimScales());
+    const FlapState change = (flaps[0].end - flaps[0].start).cwiseQuotient(trimScales());
     r.periodicity.resize(static_cast<Index>(map_.active().size()));
     for (std::size_t i = 0; i < map_.active().size(); ++i) {
       r.periodicity(static_cast<Index>(i)) = change(map_.active()[i]);
     }
-    r.targets.resize(static_cast<Index>(options_.targets.size()));
-    for (std::size_t i = 0; i < options_.targets.size(); ++i) {
-      const TrimTarget& target = options_.targets[i];
-      r.targets(static_cast<Index>(i)) = (target.of(flap) - target.value) / target.tolerance;
+    r.targets.resize(static_cast<Index>(options_.targets.size() * flaps.size()));
+    Index row = 0;
+    for (const Flap& flap : flaps) {
+      for (const TrimTarget& target : options_.targets) {
+        r.targets(row++) = (target.of(flap) - target.value) / target.tolerance;
+      }
     }
     return r;
   }
 
-  /// The flap that was flown from y; from now on the run-in flies like it.
-  const Flap& accept(const VectorXd& y) {
-    for (const auto& [at, flap] : recent_) {
-      if (at == y) flap_ = flap;
+  /// The flaps that were flown from y; from now on the run-in flies like the first of them, but for
+  /// a horizon, over which another run-in would grow into another flight.
+  const std::vector<Flap>& accept(const VectorXd& y) {
+    for (const auto& [at, flaps] : recent_) {
+      if (at == y) flaps_ = flaps;
     }
     recent_.clear();
-    point_.shape = flap_.shape;
-    return flap_;
+    if (options_.horizon == 1) point_.shape = flaps_.front().shape;
+    return flaps_;
   }
 
   int flown() const { return flown_; }
@@ -95,9 +97,9 @@ class Search {
   const FlapMap& map_;
   const TrimOptions& options_;
   TrimPoint point_;
-  Flap flap_;
+  std::vector<Flap> flaps_;
   std::mutex mutex_;
-  std::vector<std::pair<VectorXd, Flap>> recent_;
+  std::vector<std::pair<VectorXd, std::vector<Flap>>> recent_;
   std::atomic<int> flown_{0};
 };
 
@@ -114,13 +116,17 @@ void checkStart(const FlapMap& map, const TrimPoint& start) {
   if (!faults.empty()) throw InputError(faults);
 }
 
-void logIteration(std::ostream& log, const NewtonResult& r, const Flap& flap) {
+void logIteration(std::ostream& log, const NewtonResult& r, const std::vector<Flap>& flaps) {
   log << "iteration " << r.iterations << ": residual "
       << r.residual.periodicity.cwiseAbs().maxCoeff();
   if (r.residual.targets.size() > 0) log << ", targets " << r.residual.targets.norm();
-  log << "; climb " << flap.climb * kDegrees << " deg, " << flap.speed << " m/s, theta_B mean "
-      << flap.theta_B_mean * kDegrees << " swing " << flap.theta_B_swing * kDegrees
-      << " deg; evaluations " << r.evaluations << std::endl;
+  log << "; evaluations " << r.evaluations;
+  for (const Flap& flap : flaps) {
+    log << (flaps.size() > 1 ? ";\n  climb " : "; climb ") << flap.climb * kDegrees << " deg, "
+        << flap.speed << " m/s, theta_B mean " << flap.theta_B_mean * kDegrees << " swing "
+        << flap.theta_B_swing * kDegrees << " deg";
+  }
+  log << std::endl;
 }
 
 }  // namespace
@@ -169,6 +175,28 @@ std::vector<FloquetMode> floquet(const Eigen::MatrixXd& periodicity_jacobian) {
   return modes;
 }
 
+Eigen::MatrixXd overHorizon(const Eigen::MatrixXd& jacobian, Index n, Index m, int horizon) {
+  const Index known = m > 0 ? (jacobian.rows() - n) / m : 1, q = jacobian.cols() - n;
+  if (known < 1 || q < 0 || jacobian.rows() != n + known * m) {
+    throw InputError("jacobian: " + std::to_string(jacobian.rows()) + " x " +
+                     std::to_string(jacobian.cols()) +
+                     ": must have rows of states and whole flaps; give that of a like trim");
+  }
+  Eigen::MatrixXd next = Eigen::MatrixXd::Identity(n + q, n + q);  // state and parameters
+  next.topRows(n) += jacobian.topRows(n);
+  Eigen::MatrixXd J(n + horizon * m, n + q);
+  J.topRows(n) = jacobian.topRows(n);
+  for (Index k = 0; k < horizon; ++k) {
+    auto flap = J.middleRows(n + k * m, m);
+    if (k < known) {
+      flap = jacobian.middleRows(n + k * m, m);
+    } else {
+      flap = J.middleRows(n + (k - 1) * m, m) * next;
+    }
+  }
+  return J;
+}
+
 TrimResult trim(const Case& c, const std::string& config_dir, const TrimOptions& options,
                 std::ostream& log) {
   const auto begin = std::chrono::steady_clock::now();
@@ -192,18 +220,17 @@ TrimResult trim(const Case& c, const std::string& config_dir, const TrimOptions&
     result.point = search.point(r.unknowns);
     result.floquet = floquet(r.jacobian.topRows(static_cast<Index>(map.active().size())));
     result.flaps_flown = search.flown();
-    result.wall_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   const auto accepted = [&](const NewtonResult& r) {
-    result.flap = search.accept(r.unknowns);
-    logIteration(log, r, result.flap);
+    result.flaps = search.accept(r.unknowns);
+    logIteration(log, r, result.flaps);
     if (r.jacobian.size() == 0 || !options.better) return;
     complete(r);
     options.better(result);
   };
-  complete(solveTrim([&](const VectorXd& y) { return search.residual(y); },
-                     search.unknowns(start), settings, options.jacobian, accepted));
+  complete(solveTrim([&](const VectorXd& y) { return search.residual(y); }, search.unknowns(start),
+                     settings, options.jacobian, accepted));
   return result;
 }
 

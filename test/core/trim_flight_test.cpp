@@ -112,11 +112,46 @@ TEST_F(Trim, ResultIsACaseThatFliesTheSameFlight) {
   const Case early = caseFromText(trimmedCase(map, options, r, 10, 2), "early", {}, CONFIG_DIR);
   double mean = 0.0;
   for (int k = 0; k < 200; ++k) mean += early.motion->at(early.time.time(k)).body.pitch.q / 200.0;
-  EXPECT_NEAR(mean, r.flap.theta_B_mean, 1e-3);
+  EXPECT_NEAR(mean, r.flaps.front().theta_B_mean, 1e-3);
   const FlapMap with_run_in(c, CONFIG_DIR, {}, 1);
   const Flight flight = with_run_in.fly(r.point, 2);
   ASSERT_TRUE(flight.complete) << flight.failure;
-  EXPECT_NEAR(flight.flaps[1].speed, r.flap.speed, 0.05);
+  EXPECT_NEAR(flight.flaps[1].speed, r.flaps.front().speed, 0.05);
+}
+
+TEST_F(Trim, HorizonHoldsEveryFlapOfAnUnstableFlight) {
+  const CaseOverrides overrides{{"fluid", "quasi_steady"}, {"steps_per_flap", "200"}};
+  const Case c = loadCase("climb", overrides, CONFIG_DIR);
+  TrimOptions options;
+  std::ostringstream log;
+  options.newton.tolerance = 1e-5;
+  const TrimResult periodic = trim(c, CONFIG_DIR, options, log);
+  ASSERT_TRUE(periodic.newton.converged);
+  const Flap& sought = periodic.flaps.front();
+  options.targets = {{TrimTarget::kClimb, sought.climb, 0.03},
+                     {TrimTarget::kSpeed, sought.speed, 0.1},
+                     {TrimTarget::kPitch, sought.theta_B_mean, 0.03}};
+  options.start = periodic.point.state;
+  (*options.start)(0) += 0.05;
+  (*options.start)(2) -= 0.03;
+  options.horizon = 4;
+  options.newton.least_squares = true;
+  options.newton.weight = 0.5;
+  options.newton.step_tolerance = 1e-3;
+  const TrimResult r = trim(c, CONFIG_DIR, options, log);
+  ASSERT_TRUE(r.newton.converged) << r.newton.reason << '\n' << log.str();
+  ASSERT_EQ(r.flaps.size(), 4u);
+  for (const Flap& flap : r.flaps) {
+    EXPECT_NEAR(flap.climb, sought.climb, 0.01);
+    EXPECT_NEAR(flap.speed, sought.speed, 0.01);
+    EXPECT_NEAR(flap.theta_B_mean, sought.theta_B_mean, 0.01);
+  }
+  // The rows of later flaps follow from those of the first.
+  const Eigen::MatrixXd one = r.newton.jacobian.topRows(6 + 3);
+  const Eigen::MatrixXd all = overHorizon(one, 6, 3, 4);
+  EXPECT_LT((all - r.newton.jacobian).norm(), 0.1 * r.newton.jacobian.norm());
+  EXPECT_THROW(overHorizon(one.topRows(8), 6, 3, 4), InputError);
+  expectHas(trimmedCase(FlapMap(c, CONFIG_DIR, {}, 0), options, r, 200, 4), "to 4 free flaps");
 }
 
 TEST(PeriodicShape, SeriesOfSamplesAndThroughAState) {
@@ -154,6 +189,7 @@ TEST_F(Trim, WrongInputIsRefusedWithEveryFault) {
     expectHas(all, part);
   }
   expectHas(commandFaults({"fit:=kappa:2e-4:1e-4"}), "low must be below high");
+  expectHas(commandFaults({"horizon:=3"}), "needs targets");
   EXPECT_EQ(commandFaults({"case:=climb", "fit:=kappa:1e-4:2e-4", "climb:=23.4"}), "");
 }
 

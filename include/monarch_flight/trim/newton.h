@@ -20,20 +20,23 @@ struct TrimResidual {
 using TrimFunction = std::function<std::optional<TrimResidual>(const Eigen::VectorXd&)>;
 
 struct NewtonSettings {
-  double tolerance = 1e-6;      ///< on every component of the periodicity
-  double step_tolerance = 1e-4; ///< on the last change of every parameter, with targets
+  double tolerance = 1e-6;       ///< on every component of the periodicity
+  double step_tolerance = 1e-4;  ///< on the last change of every parameter, with targets
   int max_iterations = 30;
-  double max_step = 2.0;        ///< largest change of an unknown in one iteration
-  int max_halvings = 6;         ///< of a step that does not reduce the residual
-  double damping = 1e-4;        ///< of a step of the parameters (Levenberg's), targets count 1
+  double max_step = 2.0;  ///< largest change of an unknown in one iteration
+  int max_halvings = 6;   ///< of a step that does not reduce the residual
+  double damping = 1e-4;  ///< of a step of the parameters (Levenberg's), targets count 1
   /// Of the periodicity beside the targets in steps that seek both at once, for maps whose periodic
   /// flights turn back in a parameter (multipliers near 1). 0: periodicity first, targets after it.
   double weight = 0.0;
-  double difference = 1e-3;     ///< step of the finite differences
-  bool central = true;          ///< central differences, else forward
-  bool broyden = false;         ///< one Jacobian by differences, rank-one updates after it
-  int threads = 1;              ///< evaluations at once
-  Eigen::VectorXd lower, upper; ///< bounds of the parameters
+  /// Converged where the step of least squares (weight > 0) moves no unknown by more than
+  /// step_tolerance, however large the periodicity is there.
+  bool least_squares = false;
+  double difference = 1e-3;      ///< step of the finite differences
+  bool central = true;           ///< central differences, else forward
+  bool broyden = false;          ///< one Jacobian by differences, rank-one updates after it
+  int threads = 1;               ///< evaluations at once
+  Eigen::VectorXd lower, upper;  ///< bounds of the parameters
 };
 
 struct NewtonResult {

@@ -28,6 +28,10 @@ struct TrimOptions {
   std::vector<TrimTarget> targets;
   std::optional<FlapState> start;  ///< else the case's
   int run_in = 0;                  ///< prescribed flaps before the flap that is trimmed
+  /// Free flaps each of which shall meet the targets. Above 1 the search is a shooting problem over
+  /// all of them, for unstable flight and air with memory: one run-in for all points, and the state
+  /// after one flap counts little.
+  int horizon = 1;
   NewtonSettings newton;
   Eigen::MatrixXd jacobian;  ///< of another air or grid, to begin Broyden's method with
   /// Hears of every better point behind the first Jacobian: what a long search that is stopped
@@ -43,10 +47,10 @@ struct FloquetMode {
 struct TrimResult {
   NewtonResult newton;
   TrimPoint point;
-  Flap flap;                        ///< the flap from the point
-  std::vector<FloquetMode> floquet; ///< by magnitude, largest first
+  std::vector<Flap> flaps;           ///< those of the horizon, from the point
+  std::vector<FloquetMode> floquet;  ///< by magnitude, largest first
   double wall_s = 0.0;
-  int flaps_flown = 0;              ///< run-ins included
+  int flaps_flown = 0;  ///< run-ins included
 };
 
 /// Scale of each state: changes of it count alike.
@@ -54,6 +58,12 @@ FlapState trimScales();
 
 /// Multipliers and modes of the map with this Jacobian of (end - start) for dimensionless states.
 std::vector<FloquetMode> floquet(const Eigen::MatrixXd& periodicity_jacobian);
+
+/// Jacobian of the stacked residual over `horizon` flaps from one over fewer (n rows of
+/// periodicity, m targets a flap; n states stand in front): a later flap is the one before it,
+/// flown from the state one flap on. Throws InputError when the rows are not those of whole flaps.
+Eigen::MatrixXd overHorizon(const Eigen::MatrixXd& jacobian, Eigen::Index n, Eigen::Index m,
+                            int horizon);
 
 /// Finds the periodic flight. Progress goes to `log`, a line an iteration. Throws InputError (no
 /// range, a start outside it) and NumericalError (the first flight fails).
