@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "fluid/flow.h"
+#include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
 namespace {
 
 constexpr double kCellsPerChord = 9;  // of the coarse grid: some ten thousand cells
+constexpr double kFiner = 1.25;       // where that does not resolve the wing
 constexpr int kSteps = 5;             // that are timed, the best of them counts
 
 // Measured, docs/performance.md ("Cost model").
@@ -24,12 +26,23 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// As coarse as this wing lets it be.
+Grid coarseGrid(const Planform& planform, const GridSettings& settings) {
+  GridSettings coarse = GridSettings::preset("preview");
+  for (double cells = kCellsPerChord; cells < settings.cells_per_chord; cells *= kFiner) {
+    coarse.cells_per_chord = cells;
+    try {
+      return makeGrid(planform, coarse);
+    } catch (const InputError&) {  // a short or a jagged wing needs more cells
+    }
+  }
+  return makeGrid(planform, settings);
+}
+
 }  // namespace
 
-FlowCost measureFlowCost(const Planform& planform, const Air& air) {
-  GridSettings coarse = GridSettings::preset("preview");
-  coarse.cells_per_chord = kCellsPerChord;
-  NavierStokes flow(makeGrid(planform, coarse), air, planform.meanChord(), 1e9);
+FlowCost measureFlowCost(const Planform& planform, const GridSettings& settings) {
+  NavierStokes flow(coarseGrid(planform, settings), Air(), planform.meanChord(), 1e9);
   WingMotion motion;
   motion.omega_W.x() = 1.0;  // the cost does not depend on the motion
   flow.start(motion, 1e-4);

@@ -9,7 +9,7 @@
 #include "monarch_flight/fluid/flow_cost.h"
 #include "monarch_flight/fluid/grid.h"
 #include "monarch_flight/math/errors.h"
-#include "run/case_parts.h"
+#include "monarch_flight/run/wing_speeds.h"
 
 namespace monarch_flight {
 namespace {
@@ -34,18 +34,6 @@ double availableMemory() {
   std::ifstream group("/sys/fs/cgroup/memory.max"), now("/sys/fs/cgroup/memory.current");
   if (group >> limit && now >> used) left = std::min(left, std::max(0.0, limit - used));
   return left;
-}
-
-/// Peak speed of the wing's root against the wind over the prescribed run [m/s].
-double peakRootSpeed(const Case& c) {
-  const std::uint32_t stride = std::max<std::uint32_t>(1, c.time.steps / 2000);
-  double peak = 0.0;
-  for (std::uint32_t step = 0; step <= c.time.steps; step += stride) {
-    const PrescribedState state = c.motion->at(c.time.time(step));
-    const WingMotion wing = rightWingMotion(c.insect, state.body, state.angles);
-    peak = std::max(peak, (wing.v_W - wing.R_IW.transpose() * c.air.wind_I).norm());
-  }
-  return peak;
 }
 
 /// Cells above the wing's plane within `height`, the last one in part.
@@ -79,16 +67,17 @@ void planGrid(const Case& c, const Grid& grid, RunPlan& plan) {
 }
 
 void planSpeeds(const Case& c, RunPlan& plan) {
-  const double tip = peakTipSpeed(c), per_speed = c.time.dt / plan.in_plane;
-  plan.reynolds = c.air.rho * tip * plan.chord / c.air.mu;
-  plan.courant_tip = tip * per_speed;
-  plan.courant_body = peakRootSpeed(c) * per_speed;
+  const WingSpeeds peak = peakWingSpeeds(c);
+  const double per_speed = c.time.dt / plan.in_plane;
+  plan.reynolds = c.air.rho * peak.outline * plan.chord / c.air.mu;
+  plan.courant_tip = peak.outline * per_speed;
+  plan.courant_body = peak.root * per_speed;
   plan.courant_flow = kFlowByTip * plan.courant_tip;
   plan.courant_limit = c.grid.courant_limit;
 }
 
 void planTime(const Case& c, long unknowns, RunPlan& plan) {
-  const FlowCost cost = measureFlowCost(c.insect.planform, c.air);
+  const FlowCost cost = measureFlowCost(c.insect.planform, c.grid);
   const bool prescribed = c.free.count() == 0;
   plan.steps = c.time.steps;
   plan.evaluations = prescribed ? 1.0 : kEvaluationsFree;
@@ -160,7 +149,7 @@ std::string describe(const RunPlan& p) {
        << "resolution: " << p.cells_per_chord << " cells a mean chord of " << p.chord << " m, "
        << p.cells_per_span << " along the span; smallest spacing " << p.in_plane
        << " m in the wing's plane, " << p.first_height << " m above it\n";
-  text << "Reynolds number " << p.reynolds << " (tip speed, mean chord)";
+  text << "Reynolds number " << p.reynolds << " (fastest point of the wing, mean chord)";
   if (p.stokes_layer > 0.0) {
     text << "; Stokes layer sqrt(2 nu / omega) " << p.stokes_layer << " m, " << p.cells_in_layer
          << " cells";

@@ -102,6 +102,15 @@ TEST(Plan, TimeIsThatOfARun) {
   EXPECT_EQ(plan.setup_s + plan.steps * plan.step_s, plan.run_s());
 }
 
+TEST(Plan, AShortWingIsPlannedAtItsOwnResolution) {
+  // Aspect ratio 0.33: at 9 cells to a chord it would have three along the span.
+  Case c = loadCase("plate_re100", {}, CONFIG_DIR);
+  c.insect.planform = Planform::rectangle(1.0, 0.33, 0.5);
+  const RunPlan plan = planRun(c, 1);
+  EXPECT_GT(plan.step_s, 0.0);
+  EXPECT_NO_THROW(requirePossible(plan));
+}
+
 TEST(Plan, AGridBeyondTheMachineIsRefused) {
   RunPlan plan = planRun(tethered("preview"), 1);
   EXPECT_GT(plan.memory_left, 0.0);

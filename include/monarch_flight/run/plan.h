@@ -14,8 +14,8 @@ struct RunPlan {
   double in_plane = 0.0, first_height = 0.0;           ///< smallest spacings [m]
   double stokes_layer = 0.0;    ///< sqrt(2 nu / omega) of the flapping; 0 without a period [m]
   double cells_in_layer = 0.0;  ///< that it holds, counted from the wing
-  double reynolds = 0.0;        ///< of the peak tip speed and the mean chord
-  double courant_tip = 0.0, courant_body = 0.0;  ///< peak speeds of tip and root x dt / in_plane
+  double reynolds = 0.0;        ///< of the wing's fastest point and the mean chord
+  double courant_tip = 0.0, courant_body = 0.0;  ///< peak speeds of outline and root x dt / in_plane
   double courant_flow = 0.0;  ///< expected of the flow round the wing: what the solver watches
   double courant_limit = 0.0;
   double memory = 0.0, memory_left = 0.0;  ///< needed; available on this machine [bytes]
