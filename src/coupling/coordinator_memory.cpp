@@ -28,7 +28,11 @@ void Coordinator::keep(std::uint32_t step) {
   CommittedStep unused;
   Request request;
   request.key = keyOf(step, 0, Phase::kCheckpoint);
-  for (Role role : kRoles) ask(role, request, unused);
+  try {
+    for (Role role : kRoles) ask(role, request, unused);
+  } catch (const NumericalError& e) {  // no reason to try the step once more
+    throw ExchangeError(e.what());
+  }
   keeper_->close(step, [this](StateVisitor& state) {
     memory(state);
     for (StepSink* sink : sinks_) sink->onCheckpoint(state);

@@ -61,7 +61,7 @@ int CoordinatorNode::fly() {
   FlightRun run(case_, out, !parameters_.resume.empty(), {&topics});
   node_.setParam(kCheckpointsKey, checkpointFolder(out));
   FlightControl control(
-      node_, case_.time, parameters_.paused, [this] { keepAlive(); }, stop_);
+      node_, case_, parameters_.paused, [this] { keepAlive(); }, stop_);
   run.addSink(control);
   return run.fly(run_.id, *participants_[0], *participants_[1], *participants_[2], control, stop_);
 }

@@ -33,9 +33,10 @@ FlyResult resultOf(const RunPlace& place, std::uint32_t steps) {
 
 }  // namespace
 
-FlightControl::FlightControl(const ros::NodeHandle& node, const TimeGrid& time, bool paused,
+FlightControl::FlightControl(const ros::NodeHandle& node, const Case& c, bool paused,
                              std::function<void()> keep_alive, const StopFlag& stop)
-    : time_(time),
+    : time_(c.time),
+      keeps_(c.output.checkpoint_every > 0),
       keep_alive_(std::move(keep_alive)),
       stop_(stop),
       hold_(paused),
@@ -50,6 +51,7 @@ FlightControl::FlightControl(const ros::NodeHandle& node, const TimeGrid& time, 
                node_.advertiseService("resume", &FlightControl::onResume, this),
                node_.advertiseService("step", &FlightControl::onSteps, this),
                node_.advertiseService("sub_iterate", &FlightControl::onSubIterate, this),
+               node_.advertiseService("checkpoint", &FlightControl::onCheckpoint, this),
                node_.advertiseService("reset", &FlightControl::onResetAsked, this)};
   spinner_.start();
 }
@@ -79,6 +81,20 @@ bool FlightControl::onResume(Trigger::Request&, Trigger::Response& response) {
 bool FlightControl::onSubIterate(Trigger::Request&, Trigger::Response& response) {
   const RunPlace place = hold_.subIterate();
   return answer(place, place.held, response, place.held ? "" : kFlies);
+}
+
+bool FlightControl::onCheckpoint(Trigger::Request&, Trigger::Response& response) {
+  if (!keeps_) {
+    response.message =
+        "checkpoint_every = 0: this run keeps no checkpoints; start it with another value";
+    return true;
+  }
+  const RunPlace place = hold_.checkpoint();
+  answer(place, true, response);
+  if (response.success) {
+    response.message = "checkpoint of step " + std::to_string(place.step) + "; " + response.message;
+  }
+  return true;
 }
 
 bool FlightControl::onResetAsked(Trigger::Request&, Trigger::Response& response) {

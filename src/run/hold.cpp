@@ -71,6 +71,14 @@ RunPlace Hold::reset() {
   return await(lock, [this, before] { return resets_ > before && place_.held == held_; });
 }
 
+RunPlace Hold::checkpoint() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  checkpoint_ = true;
+  const std::uint64_t before = checkpoints_;
+  changed_.wait(lock, [&] { return checkpoints_ > before || place_.ended; });
+  return checkpoints_ > before ? kept_ : place_;
+}
+
 RunControl::Order Hold::next(std::uint32_t step, std::uint32_t iteration, const StopFlag& stop,
                              const std::function<void(const RunPlace&)>& idle) {
   std::unique_lock<std::mutex> lock(mutex_);
@@ -78,18 +86,27 @@ RunControl::Order Hold::next(std::uint32_t step, std::uint32_t iteration, const 
   place_.iteration = iteration;
   resets_ += resetting_ ? 1 : 0;
   resetting_ = false;
-  if (once_ || place_.step >= hold_behind_) {
+  checkpoints_ += checkpointing_ ? 1 : 0;
+  if (checkpointing_) {  // nothing has been flown since the last call
+    checkpointing_ = false;
+  } else if (once_ || place_.step >= hold_behind_) {
     held_ = true;
     once_ = false;
     hold_behind_ = kNever;
   }
-  while (held_ && !reset_ && !stop) {
+  while (held_ && !reset_ && !checkpoint_ && !stop) {
     place_.held = true;
     changed_.notify_all();
     const RunPlace place = place_;
     lock.unlock();
     idle(place);
     lock.lock();
+  }
+  if (checkpoint_ && !reset_ && !stop) {  // a held run stays held
+    checkpoint_ = false;
+    checkpointing_ = true;
+    kept_ = place_;
+    return RunControl::Order::kCheckpoint;
   }
   place_.held = false;
   changed_.notify_all();

@@ -28,6 +28,24 @@ class Meddler : public StepSink {
   std::function<void(std::uint32_t)> act_;
 };
 
+// Asks for a checkpoint before the sub-iteration `iteration` of the steps behind `first`.
+class Careful : public RunControl {
+ public:
+  Careful(std::uint32_t first, std::uint32_t iteration) : first_(first), iteration_(iteration) {}
+  Order next(std::uint32_t step, std::uint32_t iteration) override {
+    if (step <= first_ || iteration != iteration_ || step == asked_) return Order::kGoOn;
+    asked_ = step;
+    ++orders;
+    if (before) before();
+    return Order::kCheckpoint;
+  }
+  int orders = 0;
+  std::function<void()> before;
+
+ private:
+  std::uint32_t first_, iteration_, asked_ = 0;
+};
+
 class Checkpointed : public CaseTest {
  protected:
   static Case climb(CaseOverrides more = {}) {
@@ -63,6 +81,16 @@ class Checkpointed : public CaseTest {
     Meddler meddler(act ? std::move(act) : [](std::uint32_t) {});
     InProcessFederation federation(c, checkpointFolder(out(name)));
     return federation.run(1, {&files, &meddler}, stop_, &checkpoints);
+  }
+  RunResult flyLed(
+      const Case& c, const std::string& name, RunControl& control,
+      std::function<void(std::uint32_t)> act = [](std::uint32_t) {}) const {
+    Checkpoints checkpoints(c, out(name), false);
+    RunOutputs files(c, out(name), &checkpoints);
+    Meddler meddler(std::move(act));
+    InProcessFederation solvers(c, checkpointFolder(out(name)));
+    return runCase(c, 1, solvers.participant(Role::kFluid), solvers.participant(Role::kFlight),
+                   solvers.participant(Role::kWing), {&files, &meddler}, control, &checkpoints);
   }
   /// Flies in a process of its own, which is killed behind a step as by a power cut.
   void flyAndKill(const Case& c, const std::string& name, std::uint32_t step,
@@ -157,6 +185,59 @@ TEST_F(Checkpointed, AStoppedFlightKeepsItsLastStep) {
   }
 }
 
+// In the middle of a step, with every accelerator: no trace in the flight, and it goes on from
+// there.
+TEST_F(Checkpointed, ACheckpointOnDemandKeepsTheLastStepAndChangesNothing) {
+  for (const Relaxation relaxation :
+       {Relaxation::kAddedMass, Relaxation::kIqnIls, Relaxation::kAitken}) {
+    Case c = climb();
+    c.coupling.relaxation = relaxation;
+    const std::string name = std::to_string(static_cast<int>(relaxation));
+    ASSERT_TRUE(fly(c, "whole_" + name).complete);
+    for (const std::uint32_t iteration : {0u, 1u}) {
+      const std::string led = name + "_" + std::to_string(iteration);
+      Careful control(12, iteration);
+      ASSERT_TRUE(flyLed(c, led, control).complete);
+      EXPECT_GT(control.orders, 30);
+      expectSameFlight("whole_" + name, led);
+      const std::string cut = "cut_" + led;
+      Careful again(12, iteration);
+      bool stopped = false;
+      const RunResult result = flyLed(c, cut, again, [&](std::uint32_t n) {
+        stopped = n == 34;
+        if (stopped) throw OutputError("no more of this");
+      });
+      ASSERT_FALSE(result.complete);
+      ASSERT_TRUE(stopped);
+      EXPECT_TRUE(fs::exists(part(cut, "33", "manifest.json")));
+      ASSERT_TRUE(fly(c, cut, true).complete);
+      EXPECT_EQ(summary(cut)["resumed"][0]["step"], 33);
+      expectSameFlight("whole_" + name, cut);
+    }
+  }
+}
+
+// A solver that cannot write its part must not look like a step that does not converge.
+TEST_F(Checkpointed, ACheckpointOnDemandThatFailsEndsTheRunAndTheOlderOneStays) {
+  ASSERT_TRUE(fly(climb(), "whole").complete);
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = signal(SIGXFSZ, SIG_IGN);
+  Careful control(25, 1);
+  control.before = [&] {
+    const rlimit tight{1000, before.rlim_max};  // less than the fluid's part
+    setrlimit(RLIMIT_FSIZE, &tight);
+  };
+  const RunResult result = flyLed(climb(), "cut", control);
+  setrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, handler);
+  expectHas(result.failure, "fluid.h5.active cannot be written (File too large)");
+  EXPECT_EQ(control.orders, 1);
+  ASSERT_TRUE(fly(climb(), "cut", true).complete);
+  EXPECT_EQ(summary("cut")["resumed"][0]["step"], 20);
+  expectSameFlight("whole", "cut");
+}
+
 // The step is solved half when it fails: what is kept is the state before it.
 TEST_F(Checkpointed, AFailedStepLeavesTheOneBefore) {
   const Case c = climb();
@@ -176,8 +257,7 @@ TEST_F(Checkpointed, ALongerFlightIsTheSameAsOneInOnePiece) {
   ASSERT_TRUE(fly(climb(), "short").complete);
   ASSERT_TRUE(fly(climb({{"flaps", "0.8"}}), "short", true).complete);
   expectSameFlight("long", "short");
-  EXPECT_EQ(summary("short")["resumed"][0]["changed"],
-            nlohmann::json({"time/flaps: 0.5 -> 0.8"}));
+  EXPECT_EQ(summary("short")["resumed"][0]["changed"], nlohmann::json({"time/flaps: 0.5 -> 0.8"}));
   expectHas(problemOfResuming(climb({{"flaps", "0.3"}}), "short"),
             "the run is to end with step 30, before this one; give more flaps:=");
 }
@@ -187,8 +267,8 @@ TEST_F(Checkpointed, AnotherAcceleratorIsAllowedAndRecorded) {
   std::string yaml = read("cut", "case.yaml");
   const std::size_t at = yaml.find("relaxation: added_mass");
   ASSERT_NE(at, std::string::npos);
-  const Case aitken = caseFromText(yaml.replace(at, 22, "relaxation: aitken"), "aitken", {},
-                                   CONFIG_DIR);
+  const Case aitken =
+      caseFromText(yaml.replace(at, 22, "relaxation: aitken"), "aitken", {}, CONFIG_DIR);
   ASSERT_TRUE(fly(aitken, "cut", true).complete);
   EXPECT_EQ(summary("cut")["resumed"][0]["changed"],
             nlohmann::json({"coupling/relaxation: added_mass -> aitken"}));

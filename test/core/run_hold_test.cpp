@@ -27,17 +27,27 @@ class Loop {
 
   Hold hold;
   StopFlag stop{false};
-  std::atomic<std::uint32_t> evaluations{0}, starts{1}, idle_calls{0};
+  std::atomic<std::uint32_t> evaluations{0}, starts{1}, idle_calls{0}, checkpoints{0}, kept{0};
+  std::atomic<bool> slow_disk{false};
 
  private:
+  RunControl::Order ask(std::uint32_t step, std::uint32_t iteration) {
+    while (true) {
+      const RunControl::Order order = hold.next(step, iteration, stop, [this](const RunPlace& p) {
+        EXPECT_TRUE(p.held);
+        ++idle_calls;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      });
+      if (order != RunControl::Order::kCheckpoint) return order;
+      kept = step - 1;
+      ++checkpoints;
+      while (slow_disk) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
   void fly() {
     for (std::uint32_t step = 1; step <= steps_; ++step) {
       for (std::uint32_t k = 0; k < kSubIterations; ++k) {
-        const RunControl::Order order = hold.next(step, k, stop, [this](const RunPlace& place) {
-          EXPECT_TRUE(place.held);
-          ++idle_calls;
-          std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        });
+        const RunControl::Order order = ask(step, k);
         if (order == RunControl::Order::kStop) return hold.end("stopped");
         if (order == RunControl::Order::kReset) {
           ++starts;
@@ -136,6 +146,50 @@ TEST(Hold, ResetBeginsAgainAndAHeldRunStaysHeld) {
   EXPECT_TRUE(loop.hold.place().ended);
 }
 
+TEST(Hold, ACheckpointLeavesAHeldRunHeld) {
+  Loop loop(true, 100);
+  loop.hold.pause();
+  loop.hold.steps(4);
+  loop.hold.subIterate();  // in the middle of step 5
+  const RunPlace place = loop.hold.checkpoint();
+  EXPECT_EQ("held behind step 4, sub-iteration 0 of step 5", place.describe());
+  EXPECT_EQ(4u, loop.kept);
+  EXPECT_EQ(1u, loop.checkpoints);
+  EXPECT_TRUE(loop.hold.pause().held);
+  EXPECT_EQ(4 * kSubIterations + 1, loop.evaluations);
+}
+
+TEST(Hold, ACheckpointOfAFlyingRunLetsItFlyOn) {
+  Loop loop(false, 4000000000u);
+  while (loop.evaluations < 100) std::this_thread::yield();
+  for (std::uint32_t n = 1; n <= 20; ++n) {
+    const RunPlace place = loop.hold.checkpoint();
+    EXPECT_FALSE(place.held);
+    EXPECT_FALSE(place.ended);
+    EXPECT_EQ(place.step, loop.kept);
+    EXPECT_EQ(n, loop.checkpoints);
+  }
+  const std::uint32_t before = loop.evaluations;
+  while (loop.evaluations < before + 100) std::this_thread::yield();
+}
+
+// Who asks for one sub-iteration while a checkpoint is written gets it, and no request is lost.
+TEST(Hold, ASubIterationAskedForDuringACheckpointIsFlown) {
+  Loop loop(true, 100);
+  loop.hold.pause();
+  loop.slow_disk = true;
+  std::thread keeper([&] { loop.hold.checkpoint(); });
+  while (loop.checkpoints == 0) std::this_thread::yield();
+  std::thread person([&] { loop.hold.subIterate(); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(0u, loop.evaluations);
+  loop.slow_disk = false;
+  keeper.join();
+  person.join();
+  EXPECT_EQ(1u, loop.evaluations);
+  EXPECT_EQ(1u, loop.hold.place().iteration);
+}
+
 TEST(Hold, AnotherRequestOvertakesOneThatWaits) {
   Loop loop(true, 4000000000u);
   loop.hold.pause();
@@ -160,6 +214,7 @@ TEST(Hold, TheEndFreesWhoWaits) {
   EXPECT_EQ("the run is over: stopped", stepped.describe());
   EXPECT_TRUE(loop.hold.pause().ended);
   EXPECT_TRUE(loop.hold.reset().ended);
+  EXPECT_TRUE(loop.hold.checkpoint().ended);
 }
 
 }  // namespace

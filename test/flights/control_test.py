@@ -68,6 +68,7 @@ class Control(flying.FlightTest):
         listener = Listener()
         self.wait_for(lambda: listener.clock and listener.stamps, 10, "the latched clock and pose")
         self.check_single_steps(listener)
+        self.check_checkpoint()
         self.check_action(listener)
         self.check_reset(listener)
         self.good("resume")
@@ -94,6 +95,16 @@ class Control(flying.FlightTest):
         self.assertLessEqual(len(listener.clock), before + 1)
         self.assertEqual(listener.clock, sorted(listener.clock))
 
+    def check_checkpoint(self):
+        """Of a held run, between two steps and inside one."""
+        manifest = self.out() + "/checkpoints/step_0000000013/manifest.json"
+        self.assertFalse(os.path.exists(manifest))
+        self.assertEqual(self.good("checkpoint"), "checkpoint of step 13; held behind step 13")
+        self.assertTrue(os.path.exists(manifest))
+        self.good("sub_iterate")
+        self.assertEqual(self.good("checkpoint"),
+                         "checkpoint of step 13; held behind step 13, sub-iteration 0 of step 14")
+
     def check_action(self, listener):
         from monarch_flight.msg import FlyAction, FlyGoal
         import actionlib
@@ -118,6 +129,7 @@ class Control(flying.FlightTest):
         self.assertEqual(client.get_state(), GoalStatus.REJECTED)
         self.assertIn("from 61 to %d" % STEPS, client.get_goal_status_text())
         fly(0)
+        self.assertIn("; flying behind step ", self.good("checkpoint"))
         client.cancel_goal()
         self.assertTrue(client.wait_for_result(flying_duration(30)))
         self.assertEqual(client.get_state(), GoalStatus.PREEMPTED, client.get_goal_status_text())

@@ -21,14 +21,15 @@
 
 namespace monarch_flight {
 
-/// A run in a person's hands: services pause, resume, step, sub_iterate, reset and the action fly,
-/// in the coordinator's namespace (docs/protocol.md). Requests are served in threads of their own
-/// and wait until the coordinator, which asks next() between its sub-iterations, has obeyed.
+/// A run in a person's hands: services pause, resume, step, sub_iterate, checkpoint, reset and the
+/// action fly, in the coordinator's namespace (docs/protocol.md). Requests are served in threads of
+/// their own and wait until the coordinator, which asks next() between its sub-iterations, has
+/// obeyed.
 class FlightControl : public RunControl, public StepSink {
  public:
   /// `keep_alive` is called again and again while the run is held, in the coordinator's thread; it
   /// waits a moment, and throws ExchangeError when a node is lost. `stop` must outlive this.
-  FlightControl(const ros::NodeHandle& node, const TimeGrid& time, bool paused,
+  FlightControl(const ros::NodeHandle& node, const Case& c, bool paused,
                 std::function<void()> keep_alive, const StopFlag& stop);
   ~FlightControl() override;
 
@@ -49,6 +50,7 @@ class FlightControl : public RunControl, public StepSink {
   bool onPause(Trigger::Request& request, Trigger::Response& response);
   bool onResume(Trigger::Request& request, Trigger::Response& response);
   bool onSubIterate(Trigger::Request& request, Trigger::Response& response);
+  bool onCheckpoint(Trigger::Request& request, Trigger::Response& response);
   bool onResetAsked(Trigger::Request& request, Trigger::Response& response);
   bool onSteps(FlySteps::Request& request, FlySteps::Response& response);
   void onGoal(Goal goal);
@@ -57,6 +59,7 @@ class FlightControl : public RunControl, public StepSink {
   void endGoal(const RunPlace& place);
 
   TimeGrid time_;
+  bool keeps_;  // the run makes checkpoints
   std::function<void()> keep_alive_;
   const StopFlag& stop_;
   Hold hold_;

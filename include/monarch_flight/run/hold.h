@@ -42,6 +42,9 @@ class Hold {
   RunPlace steps(std::uint32_t count);
   /// One sub-iteration of a held run; the same otherwise.
   RunPlace subIterate();
+  /// Keeps the last committed step, held or not, and overtakes nobody; returns the place that was
+  /// kept, or where the run has ended.
+  RunPlace checkpoint();
   /// Back to level 0; a held run is held there.
   RunPlace reset();
 
@@ -61,11 +64,13 @@ class Hold {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   RunPlace place_;
-  bool held_;                               // wanted; place_.held: so it is
-  bool once_ = false;                       // let go for one sub-iteration
-  std::uint32_t hold_behind_ = kNever;      // step
-  bool reset_ = false, resetting_ = false;  // wanted; under way
-  std::uint64_t resets_ = 0, requests_ = 0;
+  bool held_;                                        // wanted; place_.held: so it is
+  bool once_ = false;                                // let go for one sub-iteration
+  std::uint32_t hold_behind_ = kNever;               // step
+  bool reset_ = false, resetting_ = false;           // wanted; under way
+  bool checkpoint_ = false, checkpointing_ = false;  // the same
+  RunPlace kept_;                                    // of the last checkpoint asked for
+  std::uint64_t resets_ = 0, checkpoints_ = 0, requests_ = 0;
 };
 
 }  // namespace monarch_flight
