@@ -17,6 +17,7 @@ constexpr int kSteps = 5;             // that are timed, the best of them counts
 
 // Measured, docs/performance.md ("Cost model").
 constexpr double kBytesPerCell = 170;        // 19 fields, ghosts and padding
+constexpr double kCheckpointPerCell = 216;   // seven fields with their rims, three times over
 constexpr double kBytesBeside = 45e6;        // program and libraries
 constexpr double kSetupRate = 2.5e10;        // n^3 a second: assembly and inverse
 constexpr double kCapacitanceRate = 1.0e10;  // bytes a second of the inverse, half of it read
@@ -64,13 +65,17 @@ FlowCost measureFlowCost(const Planform& planform, const GridSettings& settings)
   return {best.first / cells, best.repeated / cells};
 }
 
-double flowMemory(const Grid& grid, int processes) {
+double flowMemory(const Grid& grid, int processes, int here) {
   const double n = static_cast<double>(capacitanceUnknowns(grid));
   const double plane = double(grid.x.n()) * grid.y.n();
   // Processes that touch the wing's plane hold its inverse; each stores two planes of neighbours.
-  const double holders = std::min(processes, 2);
-  return kBytesPerCell * (static_cast<double>(grid.cells()) + 3 * plane * processes) +
-         8 * n * n * holders + kBytesBeside * processes;
+  const double holders = std::min(here, 2);
+  return kBytesPerCell * (static_cast<double>(grid.cells()) / processes + 3 * plane) * here +
+         8 * n * n * holders + kBytesBeside * here;
+}
+
+double checkpointMemory(const Grid& grid) {
+  return kCheckpointPerCell * static_cast<double>(grid.cells());
 }
 
 long capacitanceUnknowns(const Grid& grid) {

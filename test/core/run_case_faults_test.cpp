@@ -72,7 +72,7 @@ TEST_F(CaseTest, FilesAndNames) {
 
 TEST_F(CaseTest, ACaseThatHoldsItselfIsRefused) {
   const std::string self = write("self.yaml", "name: a\ninsect: &i {kind: bare_wing, wing: *i}\n");
-  expectHas(faults(self), "self.yaml: line 2, column 34 is an alias");
+  expectHas(faults(self), "self.yaml: line 2, column 36 is an alias");
   std::string laughs = "a0: &a0 [1, 2]\n";
   for (int i = 1; i < 40; ++i) {
     const std::string last = "*a" + std::to_string(i - 1), next = "a" + std::to_string(i);
