@@ -20,6 +20,7 @@ namespace {
 /// A wing set in motion at once drives potential flow round its rim, fast there for a few steps:
 /// twice the Courant number is let pass.
 constexpr long kStartSteps = 10;
+constexpr long kDivergenceEvery = 50;  // steps: a look at all velocities
 
 void sumLoads(const Slab& slab, Loads& loads) {
   double all[12];
@@ -83,6 +84,7 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   dt_ = dt;
   steps_ = 0;
   report_.kernel_s.fill(0.0);
+  report_.divergence = 0.0;
   prepared_ = evaluated_ = false;
   for (Velocity* v : {&vn_, &v_star_}) {
     for (Array& a : v->c) std::fill(a.begin(), a.end(), 0.0);
@@ -303,6 +305,8 @@ void NavierStokes::commit() {
   ++steps_;
   prepared_ = evaluated_ = false;
   step_ = {};
+  if (steps_ % kDivergenceEvery == 1)
+    report_.divergence = slab_.max(relativeDivergence(grid_, layout_, vn_));
   timer.lap(Kernel::kProjection);
 }
 
