@@ -165,7 +165,7 @@ def clock(seconds):
 NODES = ("fluid", "flight", "wing", "coordinator")
 FAULTS = (
     [Fault("SIGKILL " + node, sent(node, signal.SIGKILL), "node monarch_flight/%s died" % node) for node in NODES]
-    + [Fault("SIGKILL master", sent("master", signal.SIGKILL), "[master] process has died"),
+    + [Fault("SIGKILL master", sent("master", signal.SIGKILL), "the ROS master died"),
        Fault("SIGKILL mpirun", sent("fluid", signal.SIGKILL), "node monarch_flight/fluid died", air="navier_stokes"),
        Fault("SIGINT run", lambda flight: flight.process.send_signal(signal.SIGINT), "stopped by hand")]
     + [Fault("SIGSTOP %s, 1 s" % node, stopped(node, 1.0), None) for node in NODES]
