@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -103,15 +104,48 @@ std::vector<double> normalFaces(double first, double near, double far, double gr
   return faces;
 }
 
-/// Staircase outline: a face belongs to the wing when its centre lies inside.
+double meanOver(double low, double high, const std::function<double(double)>& edge) {
+  constexpr int kSamples = 32;
+  double sum = 0.0;
+  for (int s = 0; s < kSamples; ++s) sum += edge(low + (high - low) * (s + 0.5) / kSamples);
+  return sum / kSamples;
+}
+
+double nearestFace(const Axis& axis, double position) {
+  auto at = std::lower_bound(axis.face.begin(), axis.face.end(), position);
+  if (at == axis.face.end()) return axis.face.back();
+  return at != axis.face.begin() && position - at[-1] < *at - position ? at[-1] : *at;
+}
+
+/// Staircase outline. In each row the edges lie at the faces nearest to their means; what that
+/// rounds off is carried to the next row, from mid span outwards. So the area and its moments, on
+/// which the added mass depends, are those of the outline but for a cell here and there, where
+/// rounding each row alone widens the wing wherever an edge touches the box.
 std::vector<std::uint8_t> staircase(const Planform& planform, const Axis& x, const Axis& y) {
   std::vector<std::uint8_t> wing(static_cast<std::size_t>(x.n()) * y.n(), 0);
-  for (int j = 0; j < y.n(); ++j) {
-    if (y.centre[j] < planform.yRoot() || y.centre[j] > planform.yTip()) continue;
+  const double middle = 0.5 * (planform.yRoot() + planform.yTip());
+  double carried_lead = 0.0, carried_trail = 0.0;
+  auto place = [&](int j) {
+    const double low = std::max(y.face[j], planform.yRoot());
+    const double high = std::min(y.face[j + 1], planform.yTip());
+    auto rounded = [&](double mean, double& carried) {
+      const double face = nearestFace(x, mean + carried);
+      carried += mean - face;
+      return face;
+    };
+    const double lead =
+        rounded(meanOver(low, high, [&](double s) { return planform.leading(s); }), carried_lead);
+    const double trail =
+        rounded(meanOver(low, high, [&](double s) { return planform.trailing(s); }), carried_trail);
     for (int i = 0; i < x.n(); ++i) {
-      wing[static_cast<std::size_t>(j) * x.n() + i] = planform.contains(x.centre[i], y.centre[j]);
+      wing[static_cast<std::size_t>(j) * x.n() + i] = x.centre[i] > trail && x.centre[i] < lead;
     }
-  }
+  };
+  const int begin = static_cast<int>(std::lower_bound(y.centre.begin(), y.centre.end(), middle) -
+                                     y.centre.begin());
+  for (int j = begin; j < y.n() && y.centre[j] < planform.yTip(); ++j) place(j);
+  carried_lead = carried_trail = 0.0;
+  for (int j = begin - 1; j >= 0 && y.centre[j] > planform.yRoot(); --j) place(j);
   return wing;
 }
 

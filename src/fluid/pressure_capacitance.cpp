@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "fluid/blas.h"
 
@@ -28,8 +29,8 @@ void invertDefinite(double* matrix, int n, int leading) {
 
 }  // namespace
 
-WingCapacitance::WingCapacitance(const Grid& grid, const AxisModes& x, const AxisModes& y,
-                                 const WingResponse& response) {
+WingCapacitance::WingCapacitance(const Grid& grid, const Slab& slab, const AxisModes& x,
+                                 const AxisModes& y, const WingResponse& response) {
   findNormalFaces(grid);
   if (normal_.empty()) return;
   if (!grid.open && static_cast<std::size_t>(wing_faces_) == grid.wing.size()) {
@@ -42,10 +43,11 @@ WingCapacitance::WingCapacitance(const Grid& grid, const AxisModes& x, const Axi
   modes_x_ = x.rows(i0_, static_cast<int>(box_[0].rows()));
   modes_y_ = y.rows(j0_, static_cast<int>(box_[0].cols()));
   half_.resize(box_[0].rows(), y.n());
-  inverse_.setZero(root_.size(), root_.size());
+  system_.setZero(root_.size(), root_.size());
   assembleNormal(response.complement, 1.0 / grid.z.gap[grid.k_wing]);
   assembleInPlane(response);
   invert();
+  inverse_ = SharedSymmetric(std::move(system_), slab, grid.k_wing);
 }
 
 void WingCapacitance::add(double conductance, double mobility) {
@@ -124,11 +126,11 @@ void WingCapacitance::assembleNormal(const Eigen::MatrixXd& complement, double l
     const Eigen::MatrixXd g =
         complement * modes_y_.row(r % rows).asDiagonal() * modes_y_.transpose();
     for (int other = 0; other <= r; ++other) {
-      inverse_.block(first[r], first[other], x_rows[r].cols(), x_rows[other].cols()).noalias() =
+      system_.block(first[r], first[other], x_rows[r].cols(), x_rows[other].cols()).noalias() =
           x_rows[r].transpose() * (g.col(other % rows).asDiagonal() * x_rows[other]);
     }
   }
-  for (std::size_t f = 0; f < normal_.size(); ++f) inverse_(f, f) += list_diagonal_[f] - 1;
+  for (std::size_t f = 0; f < normal_.size(); ++f) system_(f, f) += list_diagonal_[f] - 1;
 }
 
 /// Column by column: the jumps that answer a unit source of each face.
@@ -147,8 +149,8 @@ void WingCapacitance::assembleInPlane(const WingResponse& response) {
     }
     takeJumps();
     const int column = n + static_cast<int>(e);
-    inverse_.row(column) = -root_[column] * jump_.transpose();
-    inverse_(column, column) += list_diagonal_[column];
+    system_.row(column) = -root_[column] * jump_.transpose();
+    system_(column, column) += list_diagonal_[column];
   }
 }
 
@@ -157,14 +159,14 @@ void WingCapacitance::assembleInPlane(const WingResponse& response) {
 /// S^-1 = [P^-1 - X^T X, .; L^-T X, -M^-1].
 void WingCapacitance::invert() {
   const int all = static_cast<int>(root_.size()), n = wing_faces_, r = all - n;
-  double* P = inverse_.data();
+  double* P = system_.data();
   double* B = P + n;
   double* D = P + n + static_cast<std::ptrdiff_t>(n) * all;
   invertDefinite(P, n, all);
   if (r == 0) return;
   Eigen::MatrixXd X(r, n), M(r, r);
   cblas_dsymm(CblasColMajor, CblasRight, CblasLower, r, n, 1.0, P, all, B, all, 0.0, X.data(), r);
-  M = -inverse_.bottomRightCorner(r, r);
+  M = -system_.bottomRightCorner(r, r);
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, r, r, n, 1.0, X.data(), r, B, all, 1.0,
               M.data(), r);
   factorise(M.data(), r, r);
@@ -173,7 +175,7 @@ void WingCapacitance::invert() {
   cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, r, -1.0, X.data(), r, 1.0, P, all);
   cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, r, n, 1.0, M.data(),
               r, X.data(), r);
-  inverse_.bottomLeftCorner(r, n) = X;
+  system_.bottomLeftCorner(r, n) = X;
   LAPACKE_dpotri(LAPACK_COL_MAJOR, 'L', r, M.data(), r);
   for (int c = 0; c < r; ++c) {
     for (int q = c; q < r; ++q) D[q + static_cast<std::ptrdiff_t>(c) * all] = -M(q, c);
@@ -214,9 +216,7 @@ void WingCapacitance::answer(double* down, double* up) const {
   toBox(down, box_[0]);
   toBox(up, box_[1]);
   takeJumps();
-  const int unknowns = static_cast<int>(root_.size());
-  cblas_dsymv(CblasColMajor, CblasLower, unknowns, 1.0, inverse_.data(), unknowns, jump_.data(), 1,
-              0.0, flux_.data(), 1);
+  inverse_.multiply(jump_.data(), flux_.data());
   for (Eigen::MatrixXd& box : box_) box.setZero();
   const std::size_t n = normal_.size();
   for (std::size_t f = 0; f < n; ++f) {

@@ -4,6 +4,8 @@
 
 #include "fluid/pressure_columns.h"
 #include "fluid/pressure_modes.h"
+#include "fluid/shared_symmetric.h"
+#include "fluid/slab.h"
 
 namespace monarch_flight {
 
@@ -18,8 +20,9 @@ namespace monarch_flight {
 class WingCapacitance {
  public:
   /// Throws std::invalid_argument when the wing closes the whole plane of a closed box (two
-  /// separate domains), std::runtime_error when S cannot be factored.
-  WingCapacitance(const Grid& grid, const AxisModes& x, const AxisModes& y,
+  /// separate domains), std::runtime_error when S cannot be factored. Made by every process whose
+  /// slab touches the plane.
+  WingCapacitance(const Grid& grid, const Slab& slab, const AxisModes& x, const AxisModes& y,
                   const WingResponse& response);
   bool empty() const { return root_.size() == 0; }
   int wingFaces() const { return wing_faces_; }
@@ -50,7 +53,8 @@ class WingCapacitance {
   std::vector<double> list_root_, list_diagonal_;
   Eigen::VectorXd root_;               ///< sqrt(c_f) [m^1/2], first of `normal_`, then `in_plane_`
   Eigen::MatrixXd modes_x_, modes_y_;  ///< modes on the box: cells x modes
-  Eigen::MatrixXd inverse_;            ///< S^-1, lower triangle
+  Eigen::MatrixXd system_;             ///< S, then S^-1, lower triangle; empty once set up
+  SharedSymmetric inverse_;
   mutable Eigen::MatrixXd half_, box_[2];  ///< scratch
   mutable Eigen::VectorXd jump_, flux_;
 };

@@ -37,7 +37,7 @@ struct PressureSolver::Impl {
         columns(g, slab, x, y, transform.blocks()),
         faces(facesOf(g)),
         wing(columns.touchesWing()
-                 ? std::make_unique<WingCapacitance>(g, x, y, columns.wingResponse())
+                 ? std::make_unique<WingCapacitance>(g, s, x, y, columns.wingResponse())
                  : nullptr),
         spectrum(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n() * slab.planes())),
         down(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())),
@@ -67,7 +67,7 @@ PressureSolver::PressureSolver(const Grid& grid, const Slab& slab) {
 PressureSolver::~PressureSolver() = default;
 
 // 1. modes of x and y; 2. z from both ends to the wing's plane; 3. the wing's answer to the
-// pressures there (by each process that touches the plane, alike); 4. z back outwards; 5. modes to
+// pressures there (by the one or two processes that touch the plane); 4. z back outwards; 5. modes to
 // cells.
 void PressureSolver::solve(double* b_to_p, KernelTimes& times) const {
   LapTimer timer(times);
