@@ -106,14 +106,14 @@ int inProcessMain(int argc, char** argv) {
     if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
     if (parameters.plan) {
-      const std::string plan = plannedRun(parameters, c);
+      const std::string plan = plannedRun(parameters, c, false);
       std::cout << (plan.empty() ? "quasi-steady air: no grid to plan\n" : plan);
       return static_cast<int>(kExitComplete);
     }
     requireProcesses(parameters, c);
     const std::string out = outputDirectory(parameters, c);
-    std::cout << plannedRun(parameters, c);
-    FlightRun run(c, out, !parameters.resume.empty(), {});
+    std::cout << plannedRun(parameters, c, false);
+    FlightRun run(c, out, !parameters.resume.empty(), parameters.ranks, {});
     InProcessFederation federation(c, checkpointFolder(out));
     FlyUntil control(stop_requested);
     return run.fly(1, federation.participant(Role::kFluid), federation.participant(Role::kFlight),
