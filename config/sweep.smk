@@ -1,5 +1,4 @@
 # Flights of a sweep (scripts/sweep) side by side: a folder runs/<name> for each case file cases/<name>.yaml, then a table.
-OPTIONS = config["options"] or ""  # of scripts/fly
 NAMES = glob_wildcards("cases/{name}.yaml").name
 
 
@@ -20,8 +19,10 @@ rule fly:
         "runs/{name}/summary.json",
     log:
         "logs/{name}.log",
+    params:
+        options=config["options"] or "",  # of scripts/fly; other ones: flown again
     shell:
         "rm -rf runs/{wildcards.name}; code=0; "
         "{config[root]}/scripts/fly case:={input} out:=runs/{wildcards.name} in_process:=true rviz:=false"
-        " {OPTIONS} > {log} 2>&1 || code=$?; "
+        " {params.options} > {log} 2>&1 || code=$?; "
         "[ $code -ne 130 ] && [ -f {output} ] || {{ tail -n 3 {log} >&2; exit 1; }}"

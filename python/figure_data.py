@@ -2,13 +2,13 @@
 import csv
 import math
 import pathlib
-import re
 import subprocess
 import sys
 
 import numpy as np
 import yaml
 
+import case_files
 import marker_reduction as reduction
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -40,20 +40,14 @@ def flight(folder):
     return dict(zip(("t", "x", "z", "theta_B", "theta_R", "phi", "FX", "FZ"), np.array(rows).T))
 
 
-class CaseLoader(yaml.SafeLoader):
-    """YAML 1.2: 9e-05 is a number, without a point, too."""
-
-
-CaseLoader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"[-+]?[0-9]+(\.[0-9]*)?[eE][-+]?[0-9]+$"), list("-+0123456789"))
-
-
 def case_of(folder):
-    with open(folder / "case.yaml", encoding="utf-8") as file:
-        return yaml.load(file, CaseLoader)
+    return case_files.read(folder / "case.yaml")
 
 
-def run(folder, case, *options):
-    """The run in `folder`; flown first where it is missing."""
+def run(runs, case, *options):
+    """The run of a case with these options of scripts/fly, in a folder of its own below `runs`; flown first where it is
+    missing."""
+    folder = runs / case_files.run_name(case, *options)
     if not (folder / "summary.json").exists():
         command = [str(ROOT / "scripts/fly"), f"case:={case}", f"out:={folder}", "in_process:=true", "rviz:=false",
                    *options]
@@ -63,9 +57,10 @@ def run(folder, case, *options):
     return folder
 
 
-def sweep(folder, case, masses, *options):
+def sweep(runs, case, masses, *options):
     """{label: run folder} of flights over the mass of one wing [kg]; flown first where they are missing."""
     values = ",".join(f"{mass:.4g}" for mass in masses)
+    folder = runs / case_files.run_name(case, *options, f"masses:={len(masses)}")
     command = [str(ROOT / "scripts/sweep"), f"case:={case}", f"over:=wing/mass={values}", f"out:={folder}", *options]
     if subprocess.run(command, check=False).returncode:
         sys.exit(f"figures: the sweep of {case} failed; the reason is above")

@@ -69,11 +69,11 @@ def last_stroke(flight, frequency):
 
 def figure_4(settings):
     """Passive pitch and lift of the hinge case: Navier-Stokes beside Whitney and Wood's blade elements."""
-    runs = {"Navier-Stokes (preview grid)": ("hinge_navier_stokes", "navier_stokes", OURS, "-"),
-            "blade elements (Whitney & Wood)": ("hinge_blade_elements", "quasi_steady", THEIRS, "--")}
+    runs = {"Navier-Stokes (preview grid)": ("navier_stokes", OURS, "-"),
+            "blade elements (Whitney & Wood)": ("quasi_steady", THEIRS, "--")}
     figure, (top, bottom) = plt.subplots(2, 1, sharex=True, figsize=(7, 6), constrained_layout=True)
-    for label, (name, fluid, colour, line) in runs.items():
-        folder = data.run(settings.runs / name, "hinge", f"fluid:={fluid}", "grid:=preview", "flaps:=6")
+    for label, (fluid, colour, line) in runs.items():
+        folder = data.run(settings.runs, "hinge", f"fluid:={fluid}", "grid:=preview", "flaps:=6")
         flight, frequency = data.flight(folder), data.case_of(folder)["motion"]["frequency"]
         swing, fundamental, phase, mean, peak = data.strokes(flight, frequency, 3)
         print(f"{label}, strokes 3 to 6: half the swing {deg(swing):.2f} deg, fundamental {deg(fundamental):.2f} deg, "
@@ -153,7 +153,7 @@ def free_runs(settings, masses):
     if settings.given:
         return {str(folder.name): folder for folder in settings.given}
     options = [f"fluid:={settings.fluid}", f"flaps:={settings.flaps}"] + ["grid:=preview"] * (settings.fluid == "navier_stokes")
-    return data.sweep(settings.runs / f"{settings.case}_{settings.fluid}_{len(masses)}", settings.case, masses, *options)
+    return data.sweep(settings.runs, settings.case, masses, *options)
 
 
 def figure_7(settings):
@@ -208,7 +208,7 @@ def figure_8(settings):
 def figure_9(settings):
     """Vortices, wing pressure and flown path at t/T = 0.5 and 3, rendered off screen."""
     folder = settings.given[0] if settings.given else data.run(
-        settings.runs / f"{settings.case}_fields", settings.case, "fluid:=navier_stokes", "grid:=preview", "flaps:=3",
+        settings.runs, settings.case, "fluid:=navier_stokes", "grid:=preview", "flaps:=3",
         "fields_every:=250")
     figure, panels = plt.subplots(1, 2, figsize=(13, 4.8), constrained_layout=True)
     for axes, flap, name in zip(panels, (0.5, 3.0), "ab"):

@@ -12,6 +12,7 @@ import sys
 import numpy as np
 import yaml
 
+import case_files
 import figure_data as data
 import marker_reduction as reduction
 
@@ -23,7 +24,7 @@ COLUMNS = ("name", "status", "flaps", "steps not converged", "climb [deg]", "spe
 def write_cases(case, over, out):
     """A case file for each value; those of other sweeps in `out` go."""
     key, _, values = over.partition("=")
-    content = yaml.safe_load(case.read_text(encoding="utf-8"))
+    content = case_files.read(case)
     name, folder = content["name"], out / "cases"
     folder.mkdir(parents=True, exist_ok=True)
     wanted = {}

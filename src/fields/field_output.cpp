@@ -11,6 +11,7 @@
 
 #include "fields/vtk_data.h"
 #include "monarch_flight/run/output_file.h"
+#include "monarch_flight/run/wing_speeds.h"
 
 namespace monarch_flight {
 namespace {
@@ -39,7 +40,7 @@ std::string written(const Data& data, const std::string& path) {
 class FieldOutput : public StepSink {
  public:
   FieldOutput(const Case& c, const std::string& folder, StateVisitor* resumed)
-      : case_(c), folder_(folder), reference_(pressureReference(c)) {
+      : case_(c), folder_(folder), scales_{pressureReference(c), vortexThreshold(c)} {
     if (resumed != nullptr && resumed->has("fields_count")) onCheckpoint(*resumed);
   }
 
@@ -48,8 +49,8 @@ class FieldOutput : public StepSink {
     makeFolder();
     const Entry entry(step.step, step.t);
     const std::string flow = folder_ + "/" + entry.flow, wing = folder_ + "/" + entry.wing;
-    writeWhole(flow, written<vtkXMLStructuredGridWriter>(flowGrid(case_, step), flow));
-    writeWhole(wing, written<vtkXMLPolyDataWriter>(wingSurface(case_, reference_, step), wing));
+    writeWhole(flow, written<vtkXMLStructuredGridWriter>(flowGrid(case_, scales_, step), flow));
+    writeWhole(wing, written<vtkXMLPolyDataWriter>(wingSurface(case_, scales_, step), wing));
     entries_.push_back(entry);
     writeSeries();
   }
@@ -130,7 +131,7 @@ class FieldOutput : public StepSink {
 
   const Case case_;
   const std::string folder_;
-  const PressureReference reference_;
+  const FieldScales scales_;
   std::vector<Entry> entries_;
 };
 

@@ -12,7 +12,7 @@
 #include <array>
 #include <string>
 
-#include "monarch_flight/run/federation.h"
+#include "monarch_flight/insect/insect.h"
 
 namespace monarch_flight {
 namespace {
@@ -41,7 +41,7 @@ void putVector(vtkFloatArray* a, vtkIdType i, const Vector3d& v) {
 
 /// ParaView takes the time from TimeValue; the body's position is the head of the flown path, and
 /// Q_threshold an iso-value that shows the vortices of the edges.
-void addRunData(const Case& c, const CommittedStep& step, vtkDataObject* data) {
+void addRunData(double q_threshold, const CommittedStep& step, vtkDataObject* data) {
   auto time = vtkSmartPointer<vtkDoubleArray>::New();
   time->SetName("TimeValue");
   time->InsertNextValue(step.t);
@@ -55,7 +55,7 @@ void addRunData(const Case& c, const CommittedStep& step, vtkDataObject* data) {
   body->InsertNextTuple3(x.x(), x.y(), x.z());
   auto threshold = vtkSmartPointer<vtkDoubleArray>::New();
   threshold->SetName("Q_threshold");
-  threshold->InsertNextValue(makeModel(c).q_threshold);
+  threshold->InsertNextValue(q_threshold);
   for (vtkDataArray* a :
        {static_cast<vtkDataArray*>(time.Get()), static_cast<vtkDataArray*>(threshold.Get()),
         static_cast<vtkDataArray*>(number.Get()), static_cast<vtkDataArray*>(body.Get())}) {
@@ -129,7 +129,8 @@ struct SurfaceArrays {
 
 }  // namespace
 
-vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const CommittedStep& step) {
+vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const FieldScales& scales,
+                                            const CommittedStep& step) {
   const FlowField& flow = *step.flow;
   const Placement place(c, step, false);
   auto points = vtkSmartPointer<vtkPoints>::New();
@@ -164,11 +165,11 @@ vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const CommittedStep& 
        {velocity.Get(), vorticity.Get(), spanwise.Get(), pressure.Get(), q.Get()}) {
     grid->GetCellData()->AddArray(a);
   }
-  addRunData(c, step, grid);
+  addRunData(scales.q_threshold, step, grid);
   return grid;
 }
 
-vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const PressureReference& reference,
+vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const FieldScales& scales,
                                          const CommittedStep& step) {
   const std::vector<FlowField::WingFace>& wing = step.flow->wing;
   const int wings = c.insect.wings();
@@ -189,14 +190,14 @@ vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const PressureReference&
       }
       if (side == 1) std::reverse(corner.begin(), corner.end());
       cells->InsertNextCell(4, corner.data());
-      arrays.put(id++, f, place, reference.dynamic);
+      arrays.put(id++, f, place, scales.pressure.dynamic);
     }
   }
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->SetPoints(points);
   surface->SetPolys(cells);
   arrays.addTo(surface->GetCellData());
-  addRunData(c, step, surface);
+  addRunData(scales.q_threshold, step, surface);
   return surface;
 }
 

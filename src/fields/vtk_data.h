@@ -9,12 +9,19 @@
 
 namespace monarch_flight {
 
+/// Constants of a run that its files carry.
+struct FieldScales {
+  PressureReference pressure;
+  double q_threshold = 0.0;  ///< an iso-value that shows the vortices of the edges [1/s^2]
+};
+
 /// The grid of step.flow with its fields, world axes. Precondition: step.flow is not null.
-vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const CommittedStep& step);
+vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const FieldScales& scales,
+                                            const CommittedStep& step);
 
 /// Right wing and, unless a bare wing, its mirror image: a quadrangle a face, world axes; its front
 /// side (anticlockwise) is the ventral one.
-vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const PressureReference& reference,
+vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const FieldScales& scales,
                                          const CommittedStep& step);
 
 }  // namespace monarch_flight

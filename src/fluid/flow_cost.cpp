@@ -6,15 +6,18 @@
 #include <vector>
 
 #include "fluid/flow.h"
+#include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
 namespace {
 
 constexpr double kCellsPerChord = 9;  // of the coarse grid: some ten thousand cells
+constexpr double kFiner = 1.25;       // where that does not resolve the wing
 constexpr int kSteps = 5;             // that are timed, the best of them counts
 
 // Measured, docs/performance.md ("Cost model").
 constexpr double kBytesPerCell = 170;        // 19 fields, ghosts and padding
+constexpr double kCheckpointPerCell = 216;   // seven fields with their rims, three times over
 constexpr double kBytesBeside = 45e6;        // program and libraries
 constexpr double kSetupRate = 2.5e10;        // n^3 a second: assembly and inverse
 constexpr double kCapacitanceRate = 1.0e10;  // bytes a second of the inverse, half of it read
@@ -24,12 +27,23 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// As coarse as this wing lets it be.
+Grid coarseGrid(const Planform& planform, const GridSettings& settings) {
+  GridSettings coarse = GridSettings::preset("preview");
+  for (double cells = kCellsPerChord; cells < settings.cells_per_chord; cells *= kFiner) {
+    coarse.cells_per_chord = cells;
+    try {
+      return makeGrid(planform, coarse);
+    } catch (const InputError&) {  // a short or a jagged wing needs more cells
+    }
+  }
+  return makeGrid(planform, settings);
+}
+
 }  // namespace
 
-FlowCost measureFlowCost(const Planform& planform, const Air& air) {
-  GridSettings coarse = GridSettings::preset("preview");
-  coarse.cells_per_chord = kCellsPerChord;
-  NavierStokes flow(makeGrid(planform, coarse), air, planform.meanChord(), 1e9);
+FlowCost measureFlowCost(const Planform& planform, const GridSettings& settings) {
+  NavierStokes flow(coarseGrid(planform, settings), Air(), planform.meanChord(), 1e9);
   WingMotion motion;
   motion.omega_W.x() = 1.0;  // the cost does not depend on the motion
   flow.start(motion, 1e-4);
@@ -51,13 +65,17 @@ FlowCost measureFlowCost(const Planform& planform, const Air& air) {
   return {best.first / cells, best.repeated / cells};
 }
 
-double flowMemory(const Grid& grid, int processes) {
+double flowMemory(const Grid& grid, int processes, int here) {
   const double n = static_cast<double>(capacitanceUnknowns(grid));
   const double plane = double(grid.x.n()) * grid.y.n();
   // Processes that touch the wing's plane hold its inverse; each stores two planes of neighbours.
-  const double holders = std::min(processes, 2);
-  return kBytesPerCell * (static_cast<double>(grid.cells()) + 3 * plane * processes) +
-         8 * n * n * holders + kBytesBeside * processes;
+  const double holders = std::min(here, 2);
+  return kBytesPerCell * (static_cast<double>(grid.cells()) / processes + 3 * plane) * here +
+         8 * n * n * holders + kBytesBeside * here;
+}
+
+double checkpointMemory(const Grid& grid) {
+  return kCheckpointPerCell * static_cast<double>(grid.cells());
 }
 
 long capacitanceUnknowns(const Grid& grid) {

@@ -23,6 +23,8 @@ bool running() {
   return begun && !ended;
 }
 
+int processes_here = 1;
+
 }  // namespace
 
 Processes::Processes(int* argc, char*** argv) {
@@ -30,6 +32,10 @@ Processes::Processes(int* argc, char*** argv) {
   MPI_Init(argc, argv);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
+  MPI_Comm here;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &here);
+  MPI_Comm_size(here, &processes_here);
+  MPI_Comm_free(&here);
 }
 
 Processes::~Processes() {
@@ -39,6 +45,8 @@ Processes::~Processes() {
 }
 
 void Processes::serveFlow() const { SharedFlow::serve(MPI_COMM_WORLD); }
+
+int flowProcessesHere() { return processes_here; }
 
 int flowProcesses() {
   int count = 1;

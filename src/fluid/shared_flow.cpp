@@ -1,7 +1,10 @@
 #include "fluid/shared_flow.h"
 
 #include <algorithm>
+#include <iostream>
 #include <stdexcept>
+#include <string>
+#include <typeinfo>
 #include <utility>
 
 #include "monarch_flight/math/errors.h"
@@ -40,7 +43,40 @@ void share(MPI_Comm comm, std::vector<T, A>& values) {
   }
 }
 
-void give(MPI_Comm comm, Order order) { share(comm, order); }
+/// A process has failed alone: the others wait for it for ever, and only the end of them all helps.
+bool lost = false;
+
+/// Whether all processes fail like this together, so that they are still in step.
+bool alike(const std::exception& e) {
+  return dynamic_cast<const InputError*>(&e) != nullptr ||
+         dynamic_cast<const NumericalError*>(&e) != nullptr ||
+         dynamic_cast<const std::invalid_argument*>(&e) != nullptr ||
+         typeid(e) == typeid(std::logic_error);
+}
+
+void give(MPI_Comm comm, Order order) {
+  if (lost) throw std::runtime_error("the flow's processes are out of step after a failure of one");
+  share(comm, order);
+}
+
+/// Process 0's part of a call.
+template <class Call>
+auto here(Call call) {
+  try {
+    return call();
+  } catch (const std::exception& e) {
+    lost = !alike(e);
+    throw;
+  }
+}
+
+/// Ends all processes with the reason.
+void endAll(MPI_Comm comm, const std::string& why) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::cerr << "process " << rank << " of the flow failed alone: " << why << std::endl;
+  MPI_Abort(comm, 1);
+}
 
 std::unique_ptr<NavierStokes> make(MPI_Comm comm, Grid grid, Air air, double length, double limit) {
   share(comm, grid.x.face);
@@ -63,7 +99,7 @@ SharedFlow::SharedFlow(const Grid& grid, const Air& air, double reference_length
                        double courant_limit, MPI_Comm comm)
     : comm_(comm) {
   give(comm_, Order::kMake);
-  flow_ = make(comm_, grid, air, reference_length, courant_limit);
+  flow_ = here([&] { return make(comm_, grid, air, reference_length, courant_limit); });
 }
 
 void SharedFlow::start(const WingMotion& motion, double dt) {
@@ -71,50 +107,55 @@ void SharedFlow::start(const WingMotion& motion, double dt) {
   WingMotion m = motion;
   share(comm_, m);
   share(comm_, dt);
-  flow_->start(m, dt);
+  here([&] { flow_->start(m, dt); });
 }
 
 Loads SharedFlow::evaluate(const WingMotion& next) {
   give(comm_, Order::kEvaluate);
   WingMotion m = next;
   share(comm_, m);
-  return flow_->evaluate(m);
+  return here([&] { return flow_->evaluate(m); });
 }
 
 void SharedFlow::commit() {
   give(comm_, Order::kCommit);
-  flow_->commit();
+  here([&] { flow_->commit(); });
 }
 
 std::vector<char> SharedFlow::save() const {
   give(comm_, Order::kSave);
-  return flow_->save();
+  return here([&] { return flow_->save(); });
 }
 
 void SharedFlow::restore(const std::vector<char>& bytes) {
   give(comm_, Order::kRestore);
-  std::vector<char> all = bytes;
-  share(comm_, all);
-  flow_->restore(all);
+  here([&] {
+    std::vector<char> all = bytes;
+    share(comm_, all);
+    flow_->restore(all);
+  });
 }
 
 SurfacePressure SharedFlow::surfacePressure() const {
   give(comm_, Order::kSurface);
-  return flow_->surfacePressure();
+  return here([&] { return flow_->surfacePressure(); });
 }
 
 std::vector<VortexPoint> SharedFlow::vortices(double q_threshold, int limit) const {
   give(comm_, Order::kVortices);
   share(comm_, q_threshold);
-  return flow_->vortices(q_threshold, limit);
+  return here([&] { return flow_->vortices(q_threshold, limit); });
 }
 
 std::shared_ptr<const FlowField> SharedFlow::flowField() const {
   give(comm_, Order::kField);
-  return flow_->flowField();
+  return here([&] { return flow_->flowField(); });
 }
 
-void SharedFlow::dismiss(MPI_Comm comm) { give(comm, Order::kLeave); }
+void SharedFlow::dismiss(MPI_Comm comm) {
+  if (lost) endAll(comm, "the reason is above");
+  give(comm, Order::kLeave);
+}
 
 void SharedFlow::serve(MPI_Comm comm) {
   std::unique_ptr<NavierStokes> flow;
@@ -127,6 +168,7 @@ void SharedFlow::serve(MPI_Comm comm) {
     try {
       switch (order) {
         case Order::kMake:
+          flow.reset();  // never two of them
           flow = make(comm, Grid(), Air(), 0, 0);
           break;
         case Order::kStart:
@@ -156,8 +198,9 @@ void SharedFlow::serve(MPI_Comm comm) {
         case Order::kLeave:
           return;
       }
-    } catch (const std::exception&) {
-      // The same failure happens on process 0, which tells it and decides.
+    } catch (const std::exception& e) {
+      if (!alike(e)) endAll(comm, e.what());
+      // else the same happens on process 0, which tells it and decides
     }
   }
 }

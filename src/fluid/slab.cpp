@@ -1,5 +1,6 @@
 #include "fluid/slab.h"
 
+#include <algorithm>
 #include <string>
 
 #include "monarch_flight/math/errors.h"
@@ -54,19 +55,32 @@ double Slab::max(double value) const {
   return value;
 }
 
-std::vector<char> Slab::gather(const std::vector<char>& mine) const {
+std::vector<char> Slab::gather(const std::vector<char>& mine, std::size_t piece) const {
   if (ranks_ == 1) return mine;
-  const int size = static_cast<int>(mine.size());
-  std::vector<int> sizes(ranks_), starts(ranks_);
-  MPI_Gather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, 0, comm_);
-  int total = 0;
-  for (int r = 0; r < ranks_; ++r) {
-    starts[r] = total;
-    total += sizes[r];
+  const long long size = static_cast<long long>(mine.size());
+  std::vector<long long> sizes(ranks_);
+  MPI_Gather(&size, 1, MPI_LONG_LONG, sizes.data(), 1, MPI_LONG_LONG, 0, comm_);
+  if (rank_ > 0) {
+    for (std::size_t at = 0; at < mine.size(); at += piece) {
+      const int n = static_cast<int>(std::min(piece, mine.size() - at));
+      MPI_Send(mine.data() + at, n, MPI_CHAR, 0, kTag, comm_);
+    }
+    return {};
   }
-  std::vector<char> all(rank_ == 0 ? total : 0);
-  MPI_Gatherv(mine.data(), size, MPI_CHAR, all.data(), sizes.data(), starts.data(), MPI_CHAR, 0,
-              comm_);
+  std::size_t total = 0;
+  for (const long long one : sizes) total += static_cast<std::size_t>(one);
+  std::vector<char> all;
+  all.reserve(total);
+  all = mine;
+  all.resize(total);
+  std::size_t at = mine.size();
+  for (int r = 1; r < ranks_; ++r) {
+    for (const std::size_t end = at + static_cast<std::size_t>(sizes[r]); at < end;) {
+      const int n = static_cast<int>(std::min(piece, end - at));
+      MPI_Recv(all.data() + at, n, MPI_CHAR, r, kTag, comm_, MPI_STATUS_IGNORE);
+      at += static_cast<std::size_t>(n);
+    }
+  }
   return all;
 }
 

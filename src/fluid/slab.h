@@ -48,8 +48,9 @@ class Slab {
   }
   void sum(double* values, int n) const;
   double max(double value) const;
-  /// The bytes of all processes one after the other, on process 0; elsewhere empty.
-  std::vector<char> gather(const std::vector<char>& mine) const;
+  /// The bytes of all processes one after the other, on process 0; elsewhere empty. They are sent
+  /// in pieces of `piece` bytes: MPI counts by int.
+  std::vector<char> gather(const std::vector<char>& mine, std::size_t piece = 1u << 30) const;
   /// Doubles sent by this process so far through this slab and its copies, for the scaling model.
   long long doublesSent() const { return *sent_; }
 

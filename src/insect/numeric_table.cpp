@@ -12,6 +12,7 @@ namespace monarch_flight {
 namespace {
 
 constexpr std::size_t kMostFaults = 10;
+constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";  // as spreadsheets put it before UTF-8
 
 std::string trimmed(const std::string& text) {
   const char* blank = " \t\r";
@@ -30,6 +31,17 @@ std::vector<std::string> cells(const std::string& line) {
   }
   result.push_back(trimmed(line.substr(from)));
   return result;
+}
+
+/// The names of a header line, none twice.
+std::vector<std::string> header(const std::string& text, const std::string& name,
+                                std::vector<std::string>& faults) {
+  std::vector<std::string> names = cells(text);
+  for (auto one = names.begin(); one != names.end(); ++one) {
+    if (std::find(names.begin(), one, *one) == one) continue;
+    faults.push_back(name + ": column '" + *one + "' is given twice; remove or rename one of them");
+  }
+  return names;
 }
 
 /// One row; faults are added to `faults` with `where` in front.
@@ -94,10 +106,11 @@ NumericTable readCsv(std::istream& in, const std::string& name) {
   std::vector<std::string> faults;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
+    if (number == 1 && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, 3);
     const std::string text = trimmed(line);
     if (text.empty() || text[0] == '#') continue;
     if (table.columns.empty()) {
-      table.columns = cells(text);
+      table.columns = header(text, name, faults);
       continue;
     }
     const std::string where = name + ": row " + std::to_string(table.rows.size() + 1) + " (line " +

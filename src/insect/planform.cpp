@@ -67,6 +67,32 @@ void requireOrderedEdges(const std::function<double(double)>& leading,
   }
 }
 
+/// A wing is one piece: no stretch without a chord between stretches that have one. Ends at the
+/// first and the last panel may have none.
+void requireOnePiece(const std::function<double(double)>& leading,
+                     const std::function<double(double)>& trailing,
+                     const std::vector<double>& ends, double scale) {
+  constexpr int kSamples = 64;
+  double last = ends.front(), gap_from = ends.front();
+  bool begun = false, gap = false;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    for (int k = 0; k <= kSamples; ++k) {
+      const double y = ends[i] + (ends[i + 1] - ends[i]) * k / kSamples;
+      const bool wing = leading(y) - trailing(y) > 1e-12 * scale;
+      if (wing && begun && gap && last > gap_from) {
+        std::ostringstream text;
+        text << "no chord from y = " << gap_from << " m to y = " << last
+             << " m: the wing must be one piece from root to tip; give these stations a chord";
+        reject(text.str());
+      }
+      if (!wing && !gap) gap_from = y;
+      last = y;
+      gap = !wing;
+      begun = begun || wing;
+    }
+  }
+}
+
 }  // namespace
 
 Planform::Planform(std::function<double(double)> leading, std::function<double(double)> trailing,
@@ -95,6 +121,7 @@ Planform::Planform(std::function<double(double)> leading, std::function<double(d
     x_min_ = std::min(x_min_, extreme(trailing_, ends[i], ends[i + 1], -1.0));
     requireOrderedEdges(leading_, trailing_, ends[i], ends[i + 1], x_max_ - x_min_);
   }
+  requireOnePiece(leading_, trailing_, ends, x_max_ - x_min_);
   area_ = moment(0, 0);
   if (!std::isfinite(area_) || !(area_ > 0.0)) reject("area must be > 0; give the outline a chord");
 }

@@ -76,6 +76,38 @@ struct Polynomial {
   }
 };
 
+/// The polynomials must be what the stations are: of an order that so many of them carry without
+/// swinging between them, near them, and crossed by rounding at root and tip at most.
+void requireFaithful(const std::vector<double>& y, const std::vector<double>& leading,
+                     const std::vector<double>& trailing, const Polynomial& le,
+                     const Polynomial& te) {
+  constexpr double kMostResidual = 0.1, kMostCrossing = 0.05;  // of the mean chord
+  constexpr int kSamples = 512;
+  double squares = 0.0, sum = 0.0, deepest = 0.0, at = y.front();
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    squares += std::pow(le(y[i]) - leading[i], 2) + std::pow(te(y[i]) - trailing[i], 2);
+  }
+  for (int i = 0; i <= kSamples; ++i) {
+    const double here = y.front() + (y.back() - y.front()) * i / kSamples;
+    const double chord = le(here) - te(here);
+    sum += std::max(0.0, chord);
+    if (chord >= deepest) continue;
+    deepest = chord;
+    at = here;
+  }
+  const double mean = sum / (kSamples + 1), rms = std::sqrt(0.5 * squares / y.size());
+  std::ostringstream text;
+  if (deepest < -kMostCrossing * mean) {
+    text << "the polynomials of the edges cross, by " << -deepest << " m at y = " << at
+         << " m: must be <= " << kMostCrossing << " mean chords; change the order or take type csv";
+  } else if (rms > kMostResidual * mean) {
+    text << "the polynomials miss the stations by " << rms << " m (rms): must be <= "
+         << kMostResidual << " mean chords, " << kMostResidual * mean
+         << " m; raise the order or take type csv";
+  }
+  if (!text.str().empty()) throw std::invalid_argument(text.str());
+}
+
 /// Stations in (a, b) where `chord` changes sign: there the clamp makes the edges non-smooth.
 std::vector<double> signChanges(const std::function<double(double)>& chord, double a, double b) {
   constexpr int kSamples = 512;
@@ -129,10 +161,18 @@ Planform Planform::table(const std::vector<double>& y, const std::vector<double>
 
 Planform Planform::polynomial(const std::vector<double>& y, const std::vector<double>& leading,
                               const std::vector<double>& trailing, int order) {
-  if (order < 1) throw std::invalid_argument("order of the planform's polynomials must be >= 1");
-  requireStations(y, leading, trailing, static_cast<std::size_t>(order) + 1);
+  requireStations(y, leading, trailing, 2);
+  const int most = std::min(static_cast<int>(2.0 * std::sqrt(y.size())),
+                            static_cast<int>(y.size()) - 1);
+  if (order < 1 || order > most) {
+    throw std::invalid_argument("order of the planform's polynomials = " + std::to_string(order) +
+                                ": must be from 1 to " + std::to_string(most) + " with " +
+                                std::to_string(y.size()) +
+                                " stations, or they swing between them; change the order");
+  }
   const Polynomial le(y, leading, order);
   const Polynomial te(y, trailing, order);
+  requireFaithful(y, leading, trailing, le, te);
   // Where the polynomials cross, both edges take their mean: chord 0.
   const auto clamped = [le, te](double at, bool front) {
     const double a = le(at);

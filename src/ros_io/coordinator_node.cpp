@@ -58,7 +58,7 @@ int CoordinatorNode::run() {
 int CoordinatorNode::fly() {
   RosOutput topics(node_);
   const std::string out = outputDirectory(parameters_, case_);
-  FlightRun run(case_, out, !parameters_.resume.empty(), {&topics});
+  FlightRun run(case_, out, !parameters_.resume.empty(), parameters_.ranks, {&topics});
   node_.setParam(kCheckpointsKey, checkpointFolder(out));
   FlightControl control(
       node_, case_, parameters_.paused, [this] { keepAlive(); }, stop_);

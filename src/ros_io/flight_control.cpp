@@ -62,8 +62,8 @@ FlightControl::~FlightControl() {
 }
 
 RunControl::Order FlightControl::next(std::uint32_t step, std::uint32_t iteration) {
-  return hold_.next(step, iteration, stop_, [this](const RunPlace& place) {
-    endGoal(place);
+  return hold_.next(step, iteration, stop_, [this](const RunPlace&) {
+    endGoal();
     keep_alive_();
   });
 }
@@ -146,9 +146,17 @@ std::optional<FlightControl::Flown> FlightControl::takeGoal() {
   return taken;
 }
 
-/// The run is held: the goal has been reached, was cancelled, or somebody else has paused.
-void FlightControl::endGoal(const RunPlace& place) {
-  std::optional<Flown> flown = takeGoal();
+/// The run is held: the goal has been reached, was cancelled, or somebody else has paused. A goal
+/// that has let it go meanwhile stays.
+void FlightControl::endGoal() {
+  std::optional<Flown> flown;
+  RunPlace place;
+  {
+    const std::lock_guard<std::mutex> lock(goal_mutex_);
+    place = hold_.place();
+    if (!place.held) return;
+    flown.swap(goal_);
+  }
   if (!flown) return;
   const FlyResult result = resultOf(place, time_.steps);
   if (place.step == flown->until) {

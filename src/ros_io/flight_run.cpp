@@ -10,10 +10,10 @@
 
 namespace monarch_flight {
 
-FlightRun::FlightRun(const Case& c, const std::string& out, bool resume,
+FlightRun::FlightRun(const Case& c, const std::string& out, bool resume, int ranks,
                      std::vector<MessageOutput*> listeners)
     : case_(c),
-      checkpoints_(c, out, resume),
+      checkpoints_(c, out, resume, ranks),
       fields_(c.output.fields_every > 0 ? makeFieldOutput(c, out + "/fields", checkpoints_.outputs()) : nullptr),
       files_(c, out, &checkpoints_),
       progress_(std::cout, isatty(STDOUT_FILENO) != 0, c.time) {
@@ -68,7 +68,7 @@ int FlightRun::fly(std::uint64_t run_id, Participant& fluid, Participant& flight
   std::cerr << "flight failed: " << result.failure << std::endl;
   if (checkpoints_.kept())
     std::cerr << "it can go on from step " << *checkpoints_.kept()
-              << ": scripts/fly resume:=" << files_.directory().path() << std::endl;
+              << ": " << checkpoints_.command() << std::endl;
   return stop ? kExitInterrupted : kExitFailed;
 }
 

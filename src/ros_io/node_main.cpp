@@ -20,6 +20,9 @@
 namespace monarch_flight {
 namespace {
 
+// A master that goes while nodes register with it is asked again for so long; roscpp's own limit is none.
+const ros::WallDuration kMasterPatience(10.0);
+
 StopFlag stop_requested{false};
 
 void requestStop(int) { stop_requested = true; }
@@ -53,6 +56,7 @@ int nodeMain(const std::string& name, int argc, char** argv, const std::function
     preferLoopback();
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     requireFreeMaster();
+    ros::master::setRetryTimeout(kMasterPatience);
     const Farewell farewell;
     startOnLoopback();
     return body();
@@ -102,14 +106,14 @@ int inProcessMain(int argc, char** argv) {
     if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
     if (parameters.plan) {
-      const std::string plan = plannedRun(parameters, c);
+      const std::string plan = plannedRun(parameters, c, false);
       std::cout << (plan.empty() ? "quasi-steady air: no grid to plan\n" : plan);
       return static_cast<int>(kExitComplete);
     }
     requireProcesses(parameters, c);
     const std::string out = outputDirectory(parameters, c);
-    std::cout << plannedRun(parameters, c);
-    FlightRun run(c, out, !parameters.resume.empty(), {});
+    std::cout << plannedRun(parameters, c, false);
+    FlightRun run(c, out, !parameters.resume.empty(), parameters.ranks, {});
     InProcessFederation federation(c, checkpointFolder(out));
     FlyUntil control(stop_requested);
     return run.fly(1, federation.participant(Role::kFluid), federation.participant(Role::kFlight),

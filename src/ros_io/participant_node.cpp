@@ -18,7 +18,7 @@ Case readCase(Role role) {
   const Case c = loadCase(parameters);
   if (role == Role::kFluid) {
     requireProcesses(parameters, c);
-    std::cout << plannedRun(parameters, c) << std::flush;
+    std::cout << plannedRun(parameters, c, true) << std::flush;
   }
   return c;
 }
@@ -43,8 +43,10 @@ void delayForTest() {
 
 Reply ParticipantOnStart::exchange(const Request& request) {
   delayForTest();
-  if (request.key.phase == Phase::kStart)
+  if (request.key.phase == Phase::kStart) {
+    participant_.reset();  // a reset never holds two flows
     participant_ = makeParticipant(role_, case_, checkpointsOfTheRun());
+  }
   if (participant_) return participant_->exchange(request);
   Reply reply;
   reply.key = request.key;

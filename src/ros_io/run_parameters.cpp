@@ -19,9 +19,13 @@ namespace fs = std::filesystem;
 using Values = std::map<std::string, std::string>;
 using Faults = std::vector<std::string>;
 
-const char kKnown[] =
-    "case, out, directory, fluid, grid, flaps, steps_per_flap, record, fields_every, "
-    "checkpoint_every, ranks, watchdog, paused, resume, checkpoints";
+/// Known keys: of a command line (`where` is empty), or of the parameter server.
+std::string known(const std::string& where) {
+  const std::string common =
+      "case, out, resume, directory, fluid, grid, flaps, steps_per_flap, record, fields_every, "
+      "checkpoint_every, ranks, paused, ";
+  return common + (where.empty() ? "plan" : "watchdog, checkpoints");
+}
 
 bool oneOf(const std::string& key, std::initializer_list<const char*> names) {
   for (const char* name : names) {
@@ -56,7 +60,7 @@ void take(const std::string& key, const std::string& value, const std::string& w
     out.out = value;
   } else if (key == "resume") {
     out.resume = value;
-  } else if (key == kCheckpointsKey) {
+  } else if (key == kCheckpointsKey && !where.empty()) {
     // of the coordinator to the solver nodes: participant_node.cpp
   } else if (key == "directory") {
     out.directory = value;
@@ -66,7 +70,7 @@ void take(const std::string& key, const std::string& value, const std::string& w
   } else if (key == "plan" && where.empty()) {
     out.plan = value == "true";
     if (!out.plan && value != "false") faults.push_back(shown + ": must be true or false");
-  } else if (key == "watchdog") {
+  } else if (key == "watchdog" && !where.empty()) {
     out.watchdog_s = positiveNumber(value);
     if (out.watchdog_s == 0.0) faults.push_back(shown + ": must be a number of seconds > 0");
   } else if (key == "paused") {
@@ -79,7 +83,7 @@ void take(const std::string& key, const std::string& value, const std::string& w
       faults.push_back(shown + ": must be a whole number from 1 to 10000");
     }
   } else {
-    faults.push_back(where + key + ": unknown parameter; known are " + kKnown);
+    faults.push_back(where + key + ": unknown parameter; known are " + known(where));
   }
 }
 
@@ -120,8 +124,8 @@ void checkNested(const std::string& key, XmlRpc::XmlRpcValue& nested, const std:
   }
   for (auto& entry : nested) {
     if (key == "coordinator" && entry.first == "diagnostic_period") continue;
-    faults.push_back(where + key + "/" + entry.first + ": unknown parameter; known are " + kKnown +
-                     ", in " + where);
+    faults.push_back(where + key + "/" + entry.first + ": unknown parameter; known are " +
+                     known(where) + ", in " + where);
   }
 }
 
@@ -139,7 +143,9 @@ RunParameters runParameters(int argc, char** argv) {
     const std::size_t mark = argument.find(":=");
     if (argument.rfind("__", 0) == 0) continue;
     if (mark == std::string::npos || mark == 0) {
-      faults.push_back("'" + argument + "': must be key:=value; known keys are " + kKnown);
+      faults.push_back("'" + argument + "': must be key:=value; known keys are " + known(""));
+    } else if (mark + 2 == argument.size() && argument != "directory:=") {
+      faults.push_back("'" + argument + "': has no value; give one or leave the key out");
     } else if (!values.emplace(argument.substr(0, mark), argument.substr(mark + 2)).second) {
       faults.push_back("'" + argument + "': this key is given twice; give it once");
     }
@@ -187,10 +193,13 @@ void requireProcesses(const RunParameters& parameters, const Case& c) {
   }
 }
 
-std::string plannedRun(const RunParameters& parameters, const Case& c) {
+std::string plannedRun(const RunParameters& parameters, const Case& c, bool nodes) {
   if (c.fluid != FluidKind::kNavierStokes) return "";
-  const RunPlan plan = planRun(c, parameters.ranks);
+  // Not yet started on as many processes: a plan, for one machine.
+  const int here = parameters.ranks == flowProcesses() ? flowProcessesHere() : parameters.ranks;
+  const RunPlan plan = planRun(c, parameters.ranks, here);
   requirePossible(plan);
+  if (nodes) requireInTime(plan, c.watchdog_s);
   return describe(plan);
 }
 

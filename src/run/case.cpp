@@ -1,8 +1,7 @@
 #include "monarch_flight/run/case.h"
 
-#include <regex>
-
 #include "monarch_flight/run/sha256.h"
+#include "run/case_document.h"
 #include "run/case_parts.h"
 #include "run/case_sources.h"
 
@@ -11,15 +10,6 @@ namespace {
 
 constexpr char kHeading[] =
     "# Resolved case: every key written out, presets and tables included (docs/case_files.md).\n";
-
-std::string readName(Section& root) {
-  const std::string name = root.text("name");
-  if (!name.empty() && !std::regex_match(name, std::regex("[A-Za-z0-9][A-Za-z0-9_.-]*"))) {
-    root.fault("name",
-               " = '" + name + "': must consist of letters, digits, '_', '-' and '.'; rename it");
-  }
-  return name;
-}
 
 /// Checks that look across sections, and the motion with its explicit start values.
 void finishCase(Case& c, const CaseMotion& motion, const InitialValues& initial, Faults& faults) {
@@ -31,7 +21,7 @@ void finishCase(Case& c, const CaseMotion& motion, const InitialValues& initial,
 /// Reads all sections; what cannot be read keeps its default, with a fault.
 Case readCase(Section& root, Faults& faults) {
   Case c;
-  c.name = readName(root);
+  c.name = root.name("name");
   root.text("description");
   Section insect_section = root.section("insect");
   const std::string kind = insect_section.textOf("kind");

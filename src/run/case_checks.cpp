@@ -1,9 +1,9 @@
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "monarch_flight/fluid/grid.h"
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/run/wing_speeds.h"
 #include "run/case_parts.h"
 
 namespace monarch_flight {
@@ -112,21 +112,6 @@ StartValues startValues(const Case& c, const InitialValues& initial, const Presc
   return start;
 }
 
-double peakTipSpeed(const Case& c) {
-  const Planform& planform = c.insect.planform;
-  const double y = planform.yTip();
-  const Eigen::Vector3d tip(0.5 * (planform.leading(y) + planform.trailing(y)), y, 0.0);
-  const std::uint32_t stride = std::max<std::uint32_t>(1, c.time.steps / 2000);
-  double peak = 0.0;
-  for (std::uint32_t step = 0; step <= c.time.steps; step += stride) {
-    const PrescribedState state = c.motion->at(c.time.time(step));
-    const WingMotion wing = rightWingMotion(c.insect, state.body, state.angles);
-    const Eigen::Vector3d air = wing.v_W - wing.R_IW.transpose() * c.air.wind_I;
-    peak = std::max(peak, (air + wing.omega_W.cross(tip)).norm());
-  }
-  return peak;
-}
-
 void checkGrid(const Case& c, Faults& faults) {
   if (c.fluid != FluidKind::kNavierStokes) return;
   try {
@@ -134,14 +119,14 @@ void checkGrid(const Case& c, Faults& faults) {
   } catch (const InputError& e) {
     faults.add(e.what());
   }
-  const double speed = peakTipSpeed(c);
+  const double speed = peakWingSpeeds(c).outline;
   const double cell = c.insect.planform.meanChord() / c.grid.cells_per_chord;
   const double courant = speed * c.time.dt / cell;
   if (courant <= c.grid.courant_limit) return;
   const double longest = c.grid.courant_limit * cell / speed;
   std::ostringstream text;
   text << (c.time.period > 0.0 ? "time/steps_per_flap" : "time/dt") << ": dt = " << c.time.dt
-       << " s gives a Courant number of " << courant << " (peak tip speed " << speed
+       << " s gives a Courant number of " << courant << " (peak speed of the wing " << speed
        << " m/s, cell " << cell << " m): must be <= grid/courant_limit = " << c.grid.courant_limit
        << "; ";
   if (c.time.period > 0.0) {

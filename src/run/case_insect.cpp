@@ -111,7 +111,7 @@ std::optional<Planform> readPlanform(Section section, Faults& faults) {
 
 std::optional<Insect> readInsect(Section section, Faults& faults) {
   const std::string kind = section.choice("kind", {"butterfly", "bare_wing"});
-  const std::string name = section.text("name");
+  const std::string name = section.name("name");
   if (kind.empty()) return std::nullopt;
   const bool bare = kind == "bare_wing";
   WingParameters wing;

@@ -44,11 +44,7 @@ void checkMotion(const Case& c, const CaseMotion& motion, Faults& faults);
 /// Start values must belong to free coordinates; returns them completed from the motion at t_start.
 StartValues startValues(const Case& c, const InitialValues& initial, const PrescribedMotion& motion,
                         Faults& faults);
-/// The wing must lie inside its grid, and the peak tip speed of the motion within the Courant
-/// limit.
+/// The wing must lie inside its grid, and the peak speed of the wing within the Courant limit.
 void checkGrid(const Case& c, Faults& faults);
-
-/// Largest speed of the wing tip against the wind over the prescribed run [m/s].
-double peakTipSpeed(const Case& c);
 
 }  // namespace monarch_flight

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <regex>
 
 #include "monarch_flight/math/errors.h"
 
@@ -182,6 +183,14 @@ std::string Section::text(const std::string& key) {
   }
   put(key, node->Scalar());
   return node->Scalar();
+}
+
+std::string Section::name(const std::string& key) {
+  const std::string value = text(key);
+  if (!std::regex_match(value, std::regex("([A-Za-z0-9][A-Za-z0-9_.-]*)?"))) {
+    fault(key, " = '" + value + "': must consist of letters, digits, '_', '-' and '.'; rename it");
+  }
+  return value;
 }
 
 std::string Section::choice(const std::string& key, const std::vector<std::string>& options) {

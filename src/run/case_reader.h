@@ -60,6 +60,8 @@ class Section {
   int integer(const std::string& key, const std::string& remedy);
   bool flag(const std::string& key);
   std::string text(const std::string& key);
+  /// A text that can stand in file names, URDF and messages: letters, digits, '_', '-' and '.'.
+  std::string name(const std::string& key);
   std::string choice(const std::string& key, const std::vector<std::string>& options);
   std::vector<double> numbers(const std::string& key, const std::string& unit);
   Eigen::Vector3d vector3(const std::string& key, const std::string& unit);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -14,6 +15,8 @@ void keep(Value& value, const Faults& faults, const Read& read) {
   const Value found = read();
   if (faults.count() == before) value = found;
 }
+
+constexpr double kRounding = 1e-6;  // of a time, over the time step
 
 }  // namespace
 
@@ -110,6 +113,15 @@ void readTime(Section section, double frequency, Case& c) {
     return;
   }
   c.time.steps = static_cast<std::uint32_t>(steps);
+  // t = t_start + step * dt keeps six digits of dt; 2^32 steps from 0 do.
+  const double latest = std::max(std::abs(c.time.t_start), std::abs(c.time.time(c.time.steps)));
+  if (latest * std::numeric_limits<double>::epsilon() <= kRounding * c.time.dt) return;
+  section.fault("t_start", " = " + exactText(c.time.t_start) + " s: the run reaches to " +
+                               exactText(latest) + " s, where a step of " + exactText(c.time.dt) +
+                               " s is lost in rounding: must end before " +
+                               exactText(kRounding * c.time.dt /
+                                         std::numeric_limits<double>::epsilon()) +
+                               " s; start earlier or take longer steps");
 }
 
 void readCoupling(Section section, double mean_chord, Case& c, Faults& faults) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "monarch_flight/math/errors.h"
+#include "run/case_document.h"
 
 namespace monarch_flight {
 namespace {
@@ -45,20 +46,9 @@ void anchorFiles(YAML::Node node, const fs::path& folder) {
   }
 }
 
-/// A YAML file whose top is a map; InputError naming file, line and column otherwise.
+/// A YAML file, its relative paths joined to its folder.
 YAML::Node loadMap(const fs::path& path) {
-  YAML::Node node;
-  try {
-    node = YAML::LoadFile(path.string());
-  } catch (const YAML::BadFile&) {
-    throw InputError(path.string() + ": cannot be read; check the path and its permissions");
-  } catch (const YAML::ParserException& e) {
-    throw InputError(path.string() + ": line " + std::to_string(e.mark.line + 1) + ", column " +
-                     std::to_string(e.mark.column + 1) + " is not YAML: " + e.msg + "; correct it");
-  }
-  if (!node.IsMap()) {
-    throw InputError(path.string() + ": holds no keys; it must be a map as in docs/case_files.md");
-  }
+  const YAML::Node node = caseFile(path.string());
   anchorFiles(node, fs::absolute(path).parent_path());
   return node;
 }
@@ -167,19 +157,6 @@ std::string findCase(const std::string& name_or_path, const std::string& config_
 YAML::Node assembleCase(const std::string& path, const CaseOverrides& overrides,
                         const std::string& config_dir, Faults& faults) {
   return layeredCase(loadMap(path), overrides, config_dir, faults);
-}
-
-YAML::Node caseDocument(const std::string& yaml, const std::string& name) {
-  YAML::Node node;
-  try {
-    node = YAML::Load(yaml);
-  } catch (const YAML::ParserException& e) {
-    throw InputError(name + ": is not YAML: " + e.what() + "; correct it");
-  }
-  if (!node.IsMap()) {
-    throw InputError(name + ": holds no keys; it must be a map as in docs/case_files.md");
-  }
-  return node;
 }
 
 YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,

@@ -26,7 +26,5 @@ YAML::Node assembleCase(const std::string& path, const CaseOverrides& overrides,
 /// The same for the top map of a case without a file.
 YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,
                        const std::string& config_dir, Faults& faults);
-/// The top map of a case at hand as text; InputError when it is none.
-YAML::Node caseDocument(const std::string& yaml, const std::string& name);
 
 }  // namespace monarch_flight

@@ -125,6 +125,7 @@ void CheckpointFiles::close(const CheckpointFacts& facts) const {
                 {"case", facts.case_name},
                 {"case_sha256", facts.case_sha256},
                 {"step", facts.step},
+                {"ranks", facts.ranks},
                 {"files", Json::object()}};
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(active)) files.push_back(entry.path().filename());
@@ -160,7 +161,7 @@ CheckpointFacts CheckpointFiles::verify(std::uint32_t step) const {
   try {
     const Json manifest = unsealed(file);
     CheckpointFacts facts{manifest.at("step"), manifest.at("version"), manifest.at("case"),
-                          manifest.at("case_sha256")};
+                          manifest.at("case_sha256"), manifest.value("ranks", 0)};
     if (facts.step != step)
       throw CheckpointError(where + " is a checkpoint of step " + std::to_string(facts.step));
     for (const auto& [name, entry] : manifest.at("files").items())

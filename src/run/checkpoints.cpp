@@ -19,9 +19,10 @@ std::string joined(const std::vector<std::string>& texts) {
 
 std::string checkpointFolder(const std::string& out) { return out + "/checkpoints"; }
 
-Checkpoints::Checkpoints(const Case& c, const std::string& out, bool resume)
+Checkpoints::Checkpoints(const Case& c, const std::string& out, bool resume, int ranks)
     : files_(checkpointFolder(out)),
-      facts_{0, MONARCH_FLIGHT_VERSION, c.name, c.sha256},
+      facts_{0, MONARCH_FLIGHT_VERSION, c.name, c.sha256, ranks},
+      out_(out),
       case_yaml_(c.resolved_yaml),
       every_(static_cast<std::uint32_t>(c.output.checkpoint_every)) {
   if (resume) choose(c, out);
@@ -54,6 +55,10 @@ std::string Checkpoints::problemOf(std::uint32_t step, const Case& c, const std:
   const std::string where = files_.path(step) + ": ";
   try {
     const CheckpointFacts facts = files_.verify(step);
+    if (facts.ranks != 0 && facts.ranks != facts_.ranks)
+      return where + "was made with the flow on " + std::to_string(facts.ranks) +
+             " process(es), not on " + std::to_string(facts_.ranks) + "; give ranks:=" +
+             std::to_string(facts.ranks);
     coordinator_ = files_.read(step, kCoordinator);
     reader_.emplace(coordinator_, files_.path(step) + "/coordinator.h5");
     std::string before;
@@ -79,6 +84,11 @@ std::string Checkpoints::problemOf(std::uint32_t step, const Case& c, const std:
     reader_.reset();
     return e.what();
   }
+}
+
+std::string Checkpoints::command() const {
+  return "scripts/fly resume:=" + out_ +
+         (facts_.ranks > 1 ? " ranks:=" + std::to_string(facts_.ranks) : "");
 }
 
 std::optional<std::uint32_t> Checkpoints::resumed() const {

@@ -1,7 +1,5 @@
 #include "monarch_flight/run/federation.h"
 
-#include <algorithm>
-#include <cmath>
 #include <exception>
 
 #include "monarch_flight/coupling/coordinator.h"
@@ -9,6 +7,7 @@
 #include "monarch_flight/fluid/navier_stokes.h"
 #include "monarch_flight/fluid/quasi_steady.h"
 #include "monarch_flight/run/kept_participant.h"
+#include "monarch_flight/run/wing_speeds.h"
 
 namespace monarch_flight {
 namespace {
@@ -49,23 +48,6 @@ class SinkChain : public StepSink {
   std::vector<StepSink*> sinks_;
   std::string failure_;
 };
-
-// A tenth of (fastest prescribed speed of the wing's tip / mean chord)^2: shows the vortices of the
-// edges.
-double vortexThreshold(const Case& c) {
-  constexpr int kSamples = 50;
-  const double duration = c.time.period > 0.0 ? std::min(c.time.period, c.time.steps * c.time.dt)
-                                              : c.time.steps * c.time.dt;
-  const Eigen::Vector3d tip(0.0, c.insect.planform.yTip(), 0.0);
-  double speed = 0.0;
-  for (int i = 0; i <= kSamples; ++i) {
-    const PrescribedState s = c.motion->at(c.time.t_start + duration * i / kSamples);
-    const WingMotion m = rightWingMotion(c.insect, s.body, s.angles);
-    const Eigen::Vector3d u = m.v_W + m.omega_W.cross(tip) - m.R_IW.transpose() * c.air.wind_I;
-    speed = std::max(speed, u.norm());
-  }
-  return 0.1 * std::pow(speed / c.insect.planform.meanChord(), 2);
-}
 
 }  // namespace
 

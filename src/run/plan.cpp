@@ -9,7 +9,7 @@
 #include "monarch_flight/fluid/flow_cost.h"
 #include "monarch_flight/fluid/grid.h"
 #include "monarch_flight/math/errors.h"
-#include "run/case_parts.h"
+#include "monarch_flight/run/wing_speeds.h"
 
 namespace monarch_flight {
 namespace {
@@ -17,35 +17,33 @@ namespace {
 // The air flows faster round the wing's edges than the tip moves: largest Courant number of a
 // flight over that of the tip's speed, measured (docs/performance.md).
 constexpr double kFlowByTip = 1.6;
+constexpr double kMostMissed = 0.1;  // of the wing's area, by its staircase
+constexpr double kStartByExchange = 10.0;  // waits of the nodes for START over those for an answer
 // Evaluations of the air in a step with free coordinates (docs/coupling.md, `added_mass`).
 constexpr double kEvaluationsFree = 2.1;
 
-/// Memory that this machine, or the group that the process is in, can still give [bytes].
-double availableMemory() {
-  double left = 0.0;
-  std::ifstream info("/proc/meminfo");
-  for (std::string line; std::getline(info, line);) {
+/// The number behind a key in a file of lines "key number ..."; 0 where there is none.
+double valueOf(const char* path, const std::string& wanted) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
     std::string key;
-    double kilobytes = 0.0;
-    if (words >> key >> kilobytes && key == "MemAvailable:") left = 1024.0 * kilobytes;
+    double value = 0.0;
+    if (words >> key >> value && key == wanted) return value;
   }
-  double limit = 0.0, used = 0.0;
-  std::ifstream group("/sys/fs/cgroup/memory.max"), now("/sys/fs/cgroup/memory.current");
-  if (group >> limit && now >> used) left = std::min(left, std::max(0.0, limit - used));
-  return left;
+  return 0.0;
 }
 
-/// Peak speed of the wing's root against the wind over the prescribed run [m/s].
-double peakRootSpeed(const Case& c) {
-  const std::uint32_t stride = std::max<std::uint32_t>(1, c.time.steps / 2000);
-  double peak = 0.0;
-  for (std::uint32_t step = 0; step <= c.time.steps; step += stride) {
-    const PrescribedState state = c.motion->at(c.time.time(step));
-    const WingMotion wing = rightWingMotion(c.insect, state.body, state.angles);
-    peak = std::max(peak, (wing.v_W - wing.R_IW.transpose() * c.air.wind_I).norm());
+/// Memory that this machine, or the group that the process is in, can still give [bytes].
+double availableMemory() {
+  double left = 1024.0 * valueOf("/proc/meminfo", "MemAvailable:");
+  double limit = 0.0, used = 0.0;
+  std::ifstream group("/sys/fs/cgroup/memory.max"), now("/sys/fs/cgroup/memory.current");
+  if (group >> limit && now >> used) {
+    const double reclaimable = valueOf("/sys/fs/cgroup/memory.stat", "inactive_file");
+    left = std::min(left, std::max(0.0, limit - (used - reclaimable)));
   }
-  return peak;
+  return left;
 }
 
 /// Cells above the wing's plane within `height`, the last one in part.
@@ -72,6 +70,11 @@ void planGrid(const Case& c, const Grid& grid, RunPlan& plan) {
   plan.cells_per_span = plan.span / dy;
   plan.in_plane = std::min(dx, dy);
   plan.first_height = grid.z.width[grid.k_wing];
+  for (int j = 0; j < grid.y.n(); ++j) {
+    for (int i = 0; i < grid.x.n(); ++i) {
+      if (grid.isWing(i, j)) plan.captured += grid.x.width[i] * grid.y.width[j] / wing.area();
+    }
+  }
   if (c.time.period > 0.0) {
     plan.stokes_layer = std::sqrt(c.air.mu / c.air.rho * c.time.period / M_PI);
     plan.cells_in_layer = cellsWithin(grid, plan.stokes_layer);
@@ -79,24 +82,29 @@ void planGrid(const Case& c, const Grid& grid, RunPlan& plan) {
 }
 
 void planSpeeds(const Case& c, RunPlan& plan) {
-  const double tip = peakTipSpeed(c), per_speed = c.time.dt / plan.in_plane;
-  plan.reynolds = c.air.rho * tip * plan.chord / c.air.mu;
-  plan.courant_tip = tip * per_speed;
-  plan.courant_body = peakRootSpeed(c) * per_speed;
+  const WingSpeeds peak = peakWingSpeeds(c);
+  const double per_speed = c.time.dt / plan.in_plane;
+  plan.reynolds = c.air.rho * peak.outline * plan.chord / c.air.mu;
+  plan.courant_tip = peak.outline * per_speed;
+  plan.courant_body = peak.root * per_speed;
   plan.courant_flow = kFlowByTip * plan.courant_tip;
   plan.courant_limit = c.grid.courant_limit;
 }
 
 void planTime(const Case& c, long unknowns, RunPlan& plan) {
-  const FlowCost cost = measureFlowCost(c.insect.planform, c.air);
+  const FlowCost cost = measureFlowCost(c.insect.planform, c.grid);
   const bool prescribed = c.free.count() == 0;
   plan.steps = c.time.steps;
   plan.evaluations = prescribed ? 1.0 : kEvaluationsFree;
   const double cells = static_cast<double>(plan.cells);
   plan.setup_s = capacitanceSetup(unknowns);
-  plan.step_s =
-      parallelShare(plan.ranks) * cells * (cost.first + (plan.evaluations - 1) * cost.repeated) +
-      plan.evaluations * capacitanceEvaluation(unknowns);
+  const double share = parallelShare(plan.ranks) * cells;
+  plan.step_s = share * (cost.first + (plan.evaluations - 1) * cost.repeated) +
+                plan.evaluations * capacitanceEvaluation(unknowns);
+  // An answer with the load operator takes as many evaluations more as it has columns.
+  const int evaluations = prescribed ? 1 : 7;
+  plan.exchange_s = share * (cost.first + (evaluations - 1) * cost.repeated) +
+                    evaluations * capacitanceEvaluation(unknowns);
 }
 
 std::string bytesText(double bytes) {
@@ -121,13 +129,19 @@ std::string timeText(double seconds) {
 
 }  // namespace
 
-RunPlan planRun(const Case& c, int ranks) {
+double RunPlan::watchdogNeeded() const {
+  return std::max(setup_s / kStartByExchange, exchange_s);
+}
+
+RunPlan planRun(const Case& c, int ranks, int here) {
   const Grid grid = makeGrid(c.insect.planform, c.grid);
   RunPlan plan;
   plan.ranks = ranks;
+  plan.ranks_here = here > 0 ? here : ranks;
   planGrid(c, grid, plan);
   planSpeeds(c, plan);
-  plan.memory = flowMemory(grid, ranks);
+  plan.memory = flowMemory(grid, ranks, plan.ranks_here);
+  if (c.output.checkpoint_every > 0) plan.memory += checkpointMemory(grid);
   plan.memory_left = availableMemory();
   planTime(c, capacitanceUnknowns(grid), plan);
   return plan;
@@ -143,6 +157,13 @@ void requirePossible(const RunPlan& plan) {
                      ", what this machine has left; lower grid/cells_per_chord or "
                      "grid/far_field, or use a larger machine");
   }
+  if (std::abs(plan.captured - 1.0) > kMostMissed) {
+    std::ostringstream text;
+    text << "grid/cells_per_chord: " << plan.wing_faces << " faces of the wing cover "
+         << plan.captured << " of its area: must be within " << kMostMissed
+         << " of 1; raise cells_per_chord";
+    faults.push_back(text.str());
+  }
   if (plan.cells_z < 2 * plan.ranks) {
     faults.push_back("ranks = " + std::to_string(plan.ranks) + ": must be at most " +
                      std::to_string(plan.cells_z / 2) +
@@ -152,26 +173,40 @@ void requirePossible(const RunPlan& plan) {
   if (!faults.empty()) throw InputError(faults);
 }
 
+void requireInTime(const RunPlan& plan, double watchdog_s) {
+  if (plan.watchdogNeeded() <= watchdog_s) return;
+  std::ostringstream text;
+  text << std::setprecision(3) << "watchdog_s = " << watchdog_s << " s: the set-up takes about "
+       << timeText(plan.setup_s) << " (START is waited for " << kStartByExchange
+       << " times as long as an answer) and the longest answer " << timeText(plan.exchange_s)
+       << ": must be >= " << std::ceil(plan.watchdogNeeded())
+       << "; raise it well above that, or fly with in_process:=true";
+  throw InputError(text.str());
+}
+
 std::string describe(const RunPlan& p) {
   std::ostringstream text;
   text << std::setprecision(3);
   text << "grid: " << p.cells_x << " x " << p.cells_y << " x " << p.cells_z << " = "
-       << p.cells / 1e6 << " million cells, " << p.wing_faces << " faces of the wing\n"
+       << p.cells / 1e6 << " million cells, " << p.wing_faces << " faces of the wing, "
+       << p.captured << " of its area\n"
        << "resolution: " << p.cells_per_chord << " cells a mean chord of " << p.chord << " m, "
        << p.cells_per_span << " along the span; smallest spacing " << p.in_plane
        << " m in the wing's plane, " << p.first_height << " m above it\n";
-  text << "Reynolds number " << p.reynolds << " (tip speed, mean chord)";
+  text << "Reynolds number " << p.reynolds << " (fastest point of the wing, mean chord)";
   if (p.stokes_layer > 0.0) {
     text << "; Stokes layer sqrt(2 nu / omega) " << p.stokes_layer << " m, " << p.cells_in_layer
          << " cells";
   }
-  text << "\nCourant number: wing tip " << p.courant_tip << ", wing root " << p.courant_body
+  text << "\nCourant number: wing " << p.courant_tip << ", wing root " << p.courant_body
        << "; expected in the flow " << p.courant_flow << ", limit " << p.courant_limit;
   if (p.courant_flow > p.courant_limit) text << " - this run may end on it; take more steps a flap";
-  text << "\nmemory: " << bytesText(p.memory) << " of " << bytesText(p.memory_left) << " left\n"
+  text << "\nmemory: " << bytesText(p.memory) << " of " << bytesText(p.memory_left) << " left";
+  if (p.ranks_here < p.ranks) text << " here, where " << p.ranks_here << " of the processes are";
+  text << '\n'
        << "time: set-up " << timeText(p.setup_s) << ", " << p.steps << " steps of "
        << timeText(p.step_s) << " (" << p.evaluations << " evaluations of the air, " << p.ranks
-       << (p.ranks == 1 ? " process): " : " processes): ") << timeText(p.run_s()) << "\n";
+       << (p.ranks == 1 ? " process): " : " processes): ") << timeText(p.run_s()) << "; nodes need watchdog_s >= " << p.watchdogNeeded() << "\n";
   return text.str();
 }
 

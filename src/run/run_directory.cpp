@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -57,10 +58,16 @@ void RunDirectory::prepare(bool resume) const {
 
 void RunDirectory::lock() {
   lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0 || ::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(lock_);
-  throw InputError("out = " + path_ +
-                   ": another run writes into this folder; wait for its end or stop it");
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  const int error = errno;
+  if (lock_ >= 0) ::close(lock_);
+  lock_ = -1;
+  if (error == EWOULDBLOCK)
+    throw InputError("out = " + path_ +
+                     ": another run writes into this folder; wait for its end or stop it");
+  throw InputError("out = " + path_ + ": cannot be locked against a second run (" +
+                   std::strerror(error) +
+                   "); choose a folder on a disk with locks, and that you may read, with out:=");
 }
 
 RunDirectory::~RunDirectory() {

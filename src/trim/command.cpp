@@ -1,6 +1,7 @@
 #include "monarch_flight/trim/command.h"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <ostream>
 
@@ -80,6 +81,13 @@ void printFlight(std::ostream& out, const Flight& flight) {
 }  // namespace
 
 int runTrim(TrimCommand command, const std::string& config_dir, std::ostream& out) {
+  for (const char* ending : {"", ".jacobian"}) {
+    const std::string path = command.out + ending;
+    if (!command.out.empty() && std::filesystem::exists(path)) {
+      throw InputError("out:=" + command.out + ": " + path +
+                       " exists already; name another file or move that one away");
+    }
+  }
   const Case c = loadCase(command.case_name, command.overrides, config_dir);
   TrimOptions& options = command.options;
   if (!command.jacobian_file.empty()) {

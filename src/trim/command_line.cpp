@@ -102,6 +102,12 @@ std::vector<TrimParameter> fitted(Arguments& arguments) {
     if (!(p.low < p.high)) {
       arguments.faults.push_back("fit:=" + item + ": low must be below high; exchange them");
     }
+    for (const TrimParameter& other : chosen) {
+      if (other.name == p.name) {
+        arguments.faults.push_back("fit:=" + item + ": " + p.name +
+                                   " is given twice; give it one range");
+      }
+    }
     chosen.push_back(p);
   }
   return chosen;

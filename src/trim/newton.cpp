@@ -138,13 +138,18 @@ VectorXd TrimResidual::stacked() const {
 
 MatrixXd differenceJacobian(const TrimFunction& f, const VectorXd& at, const TrimResidual& residual,
                             const NewtonSettings& settings, int& evaluations) {
+  const Index n = residual.periodicity.size();
+  const double d = settings.difference;
   std::vector<VectorXd> points;
   for (Index i = 0; i < at.size(); ++i) {
+    // Parameters stay within their ranges; ranges are wider than no difference at all.
+    const double low = i < n ? at(i) - d : std::max(at(i) - d, settings.lower(i - n));
+    const double high = i < n ? at(i) + d : std::min(at(i) + d, settings.upper(i - n));
     VectorXd point = at;
-    point(i) += settings.difference;
+    point(i) = settings.central || high - at(i) >= at(i) - low ? high : low;
     points.push_back(point);
     if (!settings.central) continue;
-    point(i) = at(i) - settings.difference;
+    point(i) = low;
     points.push_back(point);
   }
   const auto results = evaluateAll(f, points, settings.threads);
@@ -159,7 +164,8 @@ MatrixXd differenceJacobian(const TrimFunction& f, const VectorXd& at, const Tri
                            std::to_string(i + 1) + "; start closer to a periodic flight");
     }
     const VectorXd other = settings.central ? results[k + 1]->stacked() : middle;
-    J.col(i) = (results[k]->stacked() - other) / (settings.difference * static_cast<double>(per));
+    const double from = settings.central ? points[k + 1](i) : at(i);
+    J.col(i) = (results[k]->stacked() - other) / (points[k](i) - from);
   }
   return J;
 }

@@ -260,6 +260,15 @@ TEST(Csv, EveryBadCellIsNamed) {
   }
   std::istringstream empty("t,x\n");
   EXPECT_THROW(readCsv(empty, "empty.csv"), InputError);
+  std::istringstream marked("\xEF\xBB\xBFt,y\n1,2\n");
+  EXPECT_EQ(readCsv(marked, "marked.csv").columns[0], "t");
+  std::istringstream twins("t,y,t\n1,2,3\n");
+  try {
+    readCsv(twins, "twins.csv");
+    FAIL() << "not refused";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("column 't' is given twice"), std::string::npos);
+  }
   EXPECT_THROW(readCsv("/nonexistent.csv"), InputError);
 }
 

@@ -89,11 +89,11 @@ TEST(Planform, PolynomialOrderSixReproducesASexticAndClampsCrossedEdges) {
   expectRelative(p.area(), 0.2 + 1.0 / 3.0 - 0.3 / 7.0, 1e-12, "area");
   EXPECT_NEAR(p.leading(0.37), edge(0.37), 1e-12);
 
-  // Edges that cross at y = 0.5: no chord beyond.
+  // Edges that cross a little before the tip: no chord beyond.
   const Planform crossed =
-      Planform::polynomial({0.0, 0.5, 1.0}, {0.5, 0.0, -0.5}, {-0.5, 0.0, 0.5}, 1);
-  expectRelative(crossed.area(), 0.25, 1e-10, "area of the part before the crossing");
-  EXPECT_DOUBLE_EQ(crossed.chord(0.8), 0.0);
+      Planform::polynomial({0.0, 0.5, 1.0}, {0.5, 0.245, -0.01}, {0.0, 0.0, 0.0}, 1);
+  expectRelative(crossed.area(), 0.25 * 0.5 / 0.51, 1e-10, "area before the crossing");
+  EXPECT_DOUBLE_EQ(crossed.chord(0.99), 0.0);
 }
 
 TEST(Planform, ScalingTakesSpanAndAreaAndScalesMoments) {
@@ -131,6 +131,20 @@ TEST(Planform, FaultsAreNamed) {
   EXPECT_NE(message([] {
               Planform::table({0, 1, 1}, {1, 1, 1}, {0, 0, 0});
             }).find("station 3"),
+            std::string::npos);
+  EXPECT_NE(message([] {
+              Planform::table({0, 1, 2, 3}, {1, 0, 0, 1}, {0, 0, 0, 0});
+            }).find("no chord from y = 1 m to y = 2 m"),
+            std::string::npos);
+  EXPECT_EQ(message([] { Planform::table({0, 1, 2}, {1, 0, 1}, {0, 0, 0}); }), "");  // pinched
+  EXPECT_EQ(message([] { Planform::table({0, 1, 2, 3}, {0, 0, 1, 0}, {0, 0, 0, 0}); }), "");
+  const std::vector<double> y{0, 0.5, 1}, x{1, 1, 1}, zero{0, 0, 0};
+  EXPECT_NE(message([&] { Planform::polynomial(y, {0.5, 0, -0.5}, {-0.5, 0, 0.5}, 1); })
+                .find("edges cross, by 1 m at y = 1 m"),
+            std::string::npos);
+  EXPECT_NE(message([&] { Planform::polynomial(y, x, {0, 0.6, 0}, 1); }).find("miss the stations"),
+            std::string::npos);
+  EXPECT_NE(message([&] { Planform::polynomial(y, x, zero, 3); }).find("from 1 to 2"),
             std::string::npos);
   EXPECT_NE(message([] {
               Planform::table({0, NAN}, {1, 1}, {0, 0});

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ class Mutation {
 
  private:
   std::string once(std::string text) {
-    switch (pick(8)) {
+    switch (pick(9)) {
       case 0:
         return text.substr(0, at(text));
       case 1:
@@ -35,6 +36,8 @@ class Mutation {
         return lines(text, false);
       case 5:
         return lines(text, true);
+      case 6:
+        return alias(std::move(text));
       default:
         return value(std::move(text));
     }
@@ -58,6 +61,20 @@ class Mutation {
     std::string out;
     for (const std::string& l : all) out += l;
     return out;
+  }
+  // A value gets a name, and a later one refers to it: often a section to itself.
+  static std::string alias(std::string text, std::size_t begin) {
+    const std::size_t anchor = text.find(": ", begin);
+    if (anchor == std::string::npos) return text;
+    text.insert(anchor + 2, "&a ");
+    const std::size_t from = text.find(": ", anchor + 5);
+    if (from == std::string::npos) return text;
+    const std::size_t end = std::min(text.find_first_of(",}\n", from), text.size());
+    return text.replace(from + 2, end - from - 2, "*a");
+  }
+  std::string alias(std::string text) {
+    const std::size_t begin = at(text);
+    return alias(std::move(text), begin);
   }
   // Another value for a number.
   std::string value(std::string text) {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "core/case_fixture.h"
+#include "monarch_flight/run/pressure_reference.h"
+#include "monarch_flight/run/wing_speeds.h"
 
 namespace monarch_flight {
 namespace {
@@ -68,6 +70,21 @@ TEST_F(CaseTest, FilesAndNames) {
   EXPECT_EQ(faultsWith("hinge", "mass: 6.0e-7", "mass: 7.0e-7"), "");
 }
 
+TEST_F(CaseTest, ACaseThatHoldsItselfIsRefused) {
+  const std::string self = write("self.yaml", "name: a\ninsect: &i {kind: bare_wing, wing: *i}\n");
+  expectHas(faults(self), "self.yaml: line 2, column 36 is an alias");
+  std::string laughs = "a0: &a0 [1, 2]\n";
+  for (int i = 1; i < 40; ++i) {
+    const std::string last = "*a" + std::to_string(i - 1), next = "a" + std::to_string(i);
+    laughs += next + ": &" + next + " [" + last + ", " + last + "]\n";
+  }
+  expectHas(faults(write("laughs.yaml", laughs)), "is an alias");
+  EXPECT_THROW(caseFromText("a: &a {b: *a}", "text", {}, CONFIG_DIR), InputError);
+  expectHas(faults(write("deep.yaml", "a: " + std::string(40, '[') + std::string(40, ']'))),
+            "is nested deeper than 32 levels");
+  expectHas(faults(write("deeper.yaml", "a: " + std::string(100000, '['))), "nested deeper");
+}
+
 TEST_F(CaseTest, NonPhysicalValues) {
   expectHas(faultsWith("hinge", "mass: 6.0e-7", "mass: -6.0e-7"), "insect/wing/mass = -6e-07 kg");
   expectHas(faultsWith("hinge", "mass: 6.0e-7", "mass: 0"),
@@ -100,6 +117,46 @@ TEST_F(CaseTest, CourantEstimateRefusesTooLargeSteps) {
   expectHas(text, "grid/courant_limit = 3; take dt <= 0.1875 s");
   expectHas(faults("climb", {{"steps_per_flap", "20"}}), "take steps_per_flap >= ");
   EXPECT_EQ(faults("climb", {{"steps_per_flap", "20"}, {"fluid", "quasi_steady"}}), "");
+}
+
+TEST_F(CaseTest, AWingThatIsSlowAtItsTipIsFastElsewhere) {
+  // The tip lies on the root, which flaps: its outline is fastest at y = -2.
+  std::string flapping(kPlate);
+  flapping.replace(flapping.find("root_offset: 0"), 14, "root_offset: -2");
+  flapping +=
+      "motion: {type: fourier, frequency: 1, phi_deg: {A0: 0, AN: [0], BN: [60], multiple: 1}, "
+      "psi_deg: 0, theta_R_deg: 0, theta_B_deg: 0, "
+      "body: {position: [0, 0, 0], velocity: [0, 0, 0]}}\n";
+  // 60 deg * 2 pi * 2 m = 13.2 m/s at cells of 1/16 m: dt = 0.02 s gives 4.2.
+  const std::string fast = faults(write("fast.yaml", flapping));
+  expectHas(fast, "Courant number of 4.2");
+  flapping.replace(flapping.find("dt: 0.02"), 8, "dt: 0.01");
+  const Case c = loadCase(write("slower.yaml", flapping), {}, CONFIG_DIR);
+  const double fastest = M_PI / 3 * 2 * M_PI * 2.0;
+  EXPECT_NEAR(peakWingSpeeds(c).outline, fastest, 1e-3 * fastest);
+  EXPECT_EQ(peakWingSpeeds(c).root, 0.0);
+  EXPECT_NEAR(pressureReference(c).speed, fastest, 1e-3 * fastest);
+  EXPECT_NEAR(vortexThreshold(c), 0.1 * fastest * fastest, 0.01 * fastest * fastest);
+}
+
+TEST_F(CaseTest, HugeRunsAreReadAtOnce) {
+  // 2^32 - 1 steps, the most there may be.
+  std::string longest(kPlate);
+  longest.replace(longest.find("duration: 1"), 11, "duration: 85899345.9");
+  longest +=
+      "motion: {type: fourier, frequency: 0, phi_deg: 0, psi_deg: 0, theta_R_deg: 0, "
+      "theta_B_deg: 0, body: {position: [0, 0, 0], velocity: [1, 0, 0]}}\n";
+  const Case c = loadCase(write("longest.yaml", longest), {}, CONFIG_DIR);
+  EXPECT_EQ(c.time.steps, 4294967295u);
+  EXPECT_DOUBLE_EQ(peakWingSpeeds(c).outline, 1.0);
+}
+
+TEST_F(CaseTest, NamesAndTimesThatWouldGoWrongLater) {
+  expectHas(faultsWith("hinge", "name: whitney_wood_wing", "name: \"a<b\""),
+            "insect/name = 'a<b': must consist of letters");
+  expectHas(faultsWith("plate_re100", "dt: 0.02", "t_start: 1e9\n  dt: 0.02"),
+            "time/t_start = 1000000000 s: the run reaches to");
+  EXPECT_EQ(faultsWith("plate_re100", "dt: 0.02", "t_start: 1e3\n  dt: 0.02"), "");
 }
 
 TEST_F(CaseTest, GridThatCannotHoldTheWingIsRefused) {

@@ -76,7 +76,7 @@ class Checkpointed : public CaseTest {
 
   RunResult fly(const Case& c, const std::string& name, bool resume = false,
                 std::function<void(std::uint32_t)> act = nullptr) const {
-    Checkpoints checkpoints(c, out(name), resume);
+    Checkpoints checkpoints(c, out(name), resume, ranks_);
     RunOutputs files(c, out(name), &checkpoints);
     Meddler meddler(act ? std::move(act) : [](std::uint32_t) {});
     InProcessFederation federation(c, checkpointFolder(out(name)));
@@ -142,6 +142,7 @@ class Checkpointed : public CaseTest {
   }
 
   StopFlag stop_{false};
+  int ranks_ = 1;  // of the flow, as the run says
 };
 
 TEST_F(Checkpointed, AKilledFlightGoesOnBitForBit) {
@@ -337,6 +338,18 @@ TEST_F(Checkpointed, ForeignCheckpointsAreRefused) {
   const std::string why = problemOfResuming(climb(), "cut");
   expectHas(why, "step_0000000015 is a checkpoint of step 10");
   expectHas(why, "step_0000000010/fluid.h5 has changed");
+}
+
+TEST_F(Checkpointed, AnotherNumberOfProcessesIsRefusedBeforeAnythingIsTouched) {
+  ranks_ = 2;
+  flyAndKill(climb(), "cut", 27);
+  const std::string table = read("cut", "flight.csv.active");
+  expectHas(problemOfResuming(climb(), "cut"),
+            "was made with the flow on 2 process(es), not on 1; give ranks:=2");
+  EXPECT_EQ(table, read("cut", "flight.csv.active"));
+  EXPECT_TRUE(fs::exists(part("cut", "20", "manifest.json")));
+  const Checkpoints two(climb(), out("cut"), true, 2);
+  EXPECT_EQ(two.command(), "scripts/fly resume:=" + out("cut") + " ranks:=2");
 }
 
 TEST_F(Checkpointed, ATableThatHasChangedIsNoticed) {

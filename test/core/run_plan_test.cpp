@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 
 #include "fluid/flow.h"
 #include "monarch_flight/fluid/flow_cost.h"
@@ -102,6 +103,15 @@ TEST(Plan, TimeIsThatOfARun) {
   EXPECT_EQ(plan.setup_s + plan.steps * plan.step_s, plan.run_s());
 }
 
+TEST(Plan, AShortWingIsPlannedAtItsOwnResolution) {
+  // Aspect ratio 0.33: at 9 cells to a chord it would have three along the span.
+  Case c = loadCase("plate_re100", {}, CONFIG_DIR);
+  c.insect.planform = Planform::rectangle(1.0, 0.33, 0.5);
+  const RunPlan plan = planRun(c, 1);
+  EXPECT_GT(plan.step_s, 0.0);
+  EXPECT_NO_THROW(requirePossible(plan));
+}
+
 TEST(Plan, AGridBeyondTheMachineIsRefused) {
   RunPlan plan = planRun(tethered("preview"), 1);
   EXPECT_GT(plan.memory_left, 0.0);
@@ -113,6 +123,42 @@ TEST(Plan, AGridBeyondTheMachineIsRefused) {
   } catch (const InputError& e) {
     EXPECT_NE(std::string::npos, std::string(e.what()).find("of memory, must be <=")) << e.what();
   }
+}
+
+std::string refusal(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Plan, AStaircaseThatMissesTheWingIsRefused) {
+  RunPlan plan = planRun(tethered("preview"), 1);
+  EXPECT_NEAR(plan.captured, 1.0, 0.05);
+  plan.captured = 0.85;
+  const std::string text = refusal([&] { requirePossible(plan); });
+  EXPECT_NE(std::string::npos, text.find("cover 0.85 of its area")) << text;
+}
+
+TEST(Plan, NodesThatWouldNotWaitLongEnoughAreRefused) {
+  RunPlan plan = planRun(tethered("preview"), 1);
+  EXPECT_NO_THROW(requireInTime(plan, 60.0));
+  plan.setup_s = 2561.0;  // 40000 faces
+  const std::string text = refusal([&] { requireInTime(plan, 60.0); });
+  EXPECT_NE(std::string::npos, text.find("must be >= 257; raise")) << text;
+  EXPECT_NO_THROW(requireInTime(plan, 257.0));
+}
+
+TEST(Plan, OnlyTheProcessesOfThisMachineCountForItsMemory) {
+  const Case c = tethered("preview");
+  const RunPlan all = planRun(c, 8), half = planRun(c, 8, 4);
+  EXPECT_LT(half.memory, all.memory);
+  EXPECT_GT(half.memory, 0.5 * all.memory);  // the checkpoint and the wing's matrix are here
+  Case none = c;
+  none.output.checkpoint_every = 0;
+  EXPECT_NEAR(all.memory - planRun(none, 8).memory, 216.0 * all.cells, 1.0);
 }
 
 TEST(Plan, TooManyProcessesAreRefused) {

@@ -154,6 +154,7 @@ TEST_F(Trim, WrongInputIsRefusedWithEveryFault) {
     expectHas(all, part);
   }
   expectHas(commandFaults({"fit:=kappa:2e-4:1e-4"}), "low must be below high");
+  expectHas(commandFaults({"fit:=kappa:1e-4:2e-4,kappa:1e-4:3e-4"}), "kappa is given twice");
   EXPECT_EQ(commandFaults({"case:=climb", "fit:=kappa:1e-4:2e-4", "climb:=23.4"}), "");
 }
 

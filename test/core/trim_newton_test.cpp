@@ -78,11 +78,20 @@ TEST(TrimNewton, ParametersMeetTheTarget) {
 }
 
 TEST(TrimNewton, ParametersStayInTheirRange) {
-  const NewtonResult r =
-      solveTrim(follower, VectorXd::Constant(2, 1.0), settings(0.0, 1.5), {}, ignore);
-  ASSERT_TRUE(r.converged) << r.reason;
-  EXPECT_NEAR(r.unknowns(1), 1.5, 1e-12);
-  EXPECT_NEAR(r.unknowns(0), 1.5, 1e-9);
+  for (const bool central : {true, false}) {
+    NewtonSettings s = settings(0.0, 1.5);
+    s.central = central;
+    double largest = 0.0;  // parameter of any flight, those of the differences too
+    const auto watched = [&](const VectorXd& y) {
+      largest = std::max(largest, y(1));
+      return follower(y);
+    };
+    const NewtonResult r = solveTrim(watched, VectorXd::Constant(2, 1.0), s, {}, ignore);
+    ASSERT_TRUE(r.converged) << r.reason;
+    EXPECT_NEAR(r.unknowns(1), 1.5, 1e-12);
+    EXPECT_NEAR(r.unknowns(0), 1.5, 1e-9);
+    EXPECT_LE(largest, 1.5 + 1e-12);
+  }
 }
 
 TEST(TrimNewton, FailedFlightsAreAvoidedOrReported) {

@@ -49,7 +49,7 @@ class Fields : public ::testing::Test {
     Case& c = theCase();
     c = loadCase(
         "tethered_fwuav",
-        {{"flaps", "0.04"}, {"steps_per_flap", "100"}, {"record", "false"}, {"fields_every", "2"}},
+        {{"flaps", "0.02"}, {"steps_per_flap", "200"}, {"record", "false"}, {"fields_every", "2"}},
         CONFIG_DIR);
     c.grid.cells_per_chord = 6;
     c.grid.far_field = 3;

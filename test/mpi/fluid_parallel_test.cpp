@@ -143,6 +143,20 @@ TEST_P(Processes, SaveAndRestoreBitwise) {
   EXPECT_EQ(first.force(), flow.evaluate(flapping(0.04)).force());
 }
 
+TEST(Slab, GathersInPieces) {
+  int count = 1, rank = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const Slab slab(MPI_COMM_WORLD, 2 * count);
+  const std::vector<char> mine(10 + static_cast<std::size_t>(rank), static_cast<char>('a' + rank));
+  std::string expected;
+  for (int r = 0; r < count; ++r) expected += std::string(10 + r, static_cast<char>('a' + r));
+  for (const std::size_t piece : {std::size_t{3}, std::size_t{10}, std::size_t{1000}}) {
+    const std::vector<char> all = slab.gather(mine, piece);
+    EXPECT_EQ(std::string(all.begin(), all.end()), rank == 0 ? expected : "");
+  }
+}
+
 TEST(Slab, RefusesTooManyProcesses) {
   int count = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &count);

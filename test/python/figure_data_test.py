@@ -1,6 +1,8 @@
 """Numbers behind the figures: forces in body axes, measured forces, strokes of a hinge run, recorded flights, sweeps."""
 import math
 import pathlib
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,6 +14,7 @@ from genpy.dynamic import generate_dynamic
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
+import case_files  # noqa: E402
 import figure_data as data  # noqa: E402
 import sweep  # noqa: E402
 
@@ -72,6 +75,17 @@ class Runs(unittest.TestCase):
             (pathlib.Path(name) / "case.yaml").write_text("{a: 9e-05, b: 3.5e-05, c: -1e3, d: e5, e: 7}", encoding="utf-8")
             self.assertEqual(data.case_of(pathlib.Path(name)), dict(a=9e-5, b=3.5e-5, c=-1e3, d="e5", e=7))
 
+    def test_other_options_and_another_case_are_another_run(self):
+        with tempfile.TemporaryDirectory() as name:
+            case = pathlib.Path(name) / "mine.yaml"
+            case.write_text("name: mine", encoding="utf-8")
+            one = case_files.run_name(str(case), "fluid:=quasi_steady", "flaps:=6")
+            self.assertRegex(one, "^mine_quasi_steady_6_[0-9a-f]{8}$")
+            self.assertNotEqual(one, case_files.run_name(str(case), "fluid:=quasi_steady", "flaps:=7"))
+            self.assertEqual(one, case_files.run_name(str(case), "fluid:=quasi_steady", "flaps:=6"))
+            case.write_text("name: changed", encoding="utf-8")
+            self.assertNotEqual(one, case_files.run_name(str(case), "fluid:=quasi_steady", "flaps:=6"))
+
     def test_measured_flight_is_at_no_distance_from_itself(self):
         real = data.measured()["columns"]
         flight = {k: real[k] + shift for k, shift in (("t", 3.0), ("x", 1.0), ("z", -2.0))}
@@ -95,6 +109,35 @@ class Sweep(unittest.TestCase):
             self.assertEqual(changed.pop("name"), "climb_wing_mass_3.7e-5")
             shipped.pop("name")
             self.assertEqual(changed, shipped)
+
+    def test_files_of_the_case_are_found_from_elsewhere(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            sweep.write_cases(ROOT / "config/cases/hinge.yaml", "wing/mass=6e-7", folder)
+            hinge = yaml.safe_load((folder / "cases/hinge_wing_mass_6e-7.yaml").read_text(encoding="utf-8"))
+            file = pathlib.Path(hinge["insect"]["wing"]["planform"]["file"])
+            self.assertTrue(file.is_absolute() and file.is_file(), file)
+
+    @unittest.skipUnless(shutil.which("snakemake"), "scripts/install sweep has not been run")
+    def test_other_options_are_flown_again(self):
+        """The workflow itself, with a flight that only writes its options down."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "out/cases").mkdir(parents=True)
+            (folder / "out/cases/a_1.yaml").write_text("name: a", encoding="utf-8")
+            (folder / "scripts").mkdir()
+            fly = folder / "scripts/fly"
+            fly.write_text('#!/bin/bash\nmkdir -p "${2#out:=}"; echo "$*" >"${2#out:=}/summary.json"\n', encoding="utf-8")
+            fly.chmod(0o755)
+            flown = []
+            for options in ("flaps:=2", "flaps:=2", "flaps:=3"):
+                subprocess.run(["snakemake", "--snakefile", str(ROOT / "config/sweep.smk"), "--directory", str(folder / "out"),
+                                "--cores", "1", "runs/a_1/summary.json", "--nolock", "--quiet", "rules", "--config",
+                                f"root={folder}", f"options= {options}"], check=True, capture_output=True)
+                summary = folder / "out/runs/a_1/summary.json"
+                flown.append((summary.read_text(encoding="utf-8").split()[-1], summary.stat().st_mtime_ns))
+        self.assertEqual(flown[0], flown[1])
+        self.assertEqual(flown[2][0], "flaps:=3")
 
 
 if __name__ == "__main__":

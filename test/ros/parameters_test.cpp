@@ -27,7 +27,7 @@ std::string faultsOf(const std::vector<std::string>& arguments) {
 TEST(RunParameters, CommandLineAndServerMeanTheSame) {
   const RunParameters line =
       fromArguments({"case:=hinge", "flaps:=0.1", "steps_per_flap:=200", "record:=false",
-                     "out:=/tmp/x", "watchdog:=2.5", "ranks:=1", "grid:=", "__name:=other"});
+                     "out:=/tmp/x", "ranks:=1", "__name:=other"});
   XmlRpc::XmlRpcValue values;
   values["case"] = "hinge";
   values["flaps"] = 0.1;
@@ -42,20 +42,23 @@ TEST(RunParameters, CommandLineAndServerMeanTheSame) {
   for (const RunParameters& p : {line, server}) {
     EXPECT_EQ("hinge", p.name);
     EXPECT_EQ("/tmp/x", p.out);
-    EXPECT_EQ(2.5, p.watchdog_s);
     EXPECT_EQ((CaseOverrides{{"flaps", "0.1"}, {"steps_per_flap", "200"}, {"record", "false"}}),
               p.overrides);
   }
   EXPECT_EQ(loadCase(line).sha256, loadCase(server).sha256);
+  EXPECT_EQ(2.5, server.watchdog_s);
   EXPECT_EQ(2.5, loadCase(server).watchdog_s);
 }
 
 TEST(RunParameters, EveryFaultIsNamedAtOnce) {
   const std::string faults =
-      faultsOf({"flap:=3", "ranks:=two", "watchdog:=soon", "nonsense", "case:=a", "case:=b"});
+      faultsOf({"flap:=3", "ranks:=two", "watchdog:=5", "nonsense", "case:=a", "case:=b",
+                "checkpoints:=/tmp", "flaps:="});
   EXPECT_NE(std::string::npos, faults.find("flap: unknown parameter; known are case")) << faults;
   EXPECT_NE(std::string::npos, faults.find("ranks = two: must be a whole number"));
-  EXPECT_NE(std::string::npos, faults.find("watchdog = soon: must be a number"));
+  EXPECT_NE(std::string::npos, faults.find("watchdog: unknown parameter"));
+  EXPECT_NE(std::string::npos, faults.find("checkpoints: unknown parameter"));
+  EXPECT_NE(std::string::npos, faults.find("'flaps:=': has no value"));
   EXPECT_NE(std::string::npos, faults.find("'nonsense': must be key:=value"));
   EXPECT_NE(std::string::npos, faults.find("'case:=b': this key is given twice"));
 }
@@ -86,7 +89,7 @@ TEST(RunParameters, ListsAndPrivateParametersAreRefused) {
 TEST(RunParameters, BrokenCommandLinesAreReadOrRefused) {
   Mutation mutation(7);
   const char* const good[] = {"case:=hinge",  "flaps:=0.1",    "steps_per_flap:=200", "ranks:=2",
-                              "watchdog:=30", "paused:=false", "fluid:=quasi_steady"};
+                              "plan:=true", "paused:=false", "fluid:=quasi_steady"};
   int refused = 0;
   for (int i = 0; i < 2000; ++i) {
     std::vector<std::string> arguments;

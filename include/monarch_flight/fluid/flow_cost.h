@@ -11,11 +11,14 @@ struct FlowCost {
   double repeated = 0.0;  ///< another evaluation of the same step
 };
 
-/// Measured by a few steps on a coarse grid around this wing: a fraction of a second.
-FlowCost measureFlowCost(const Planform& planform, const Air& air);
+/// Measured by a few steps on a coarse grid around this wing, a fraction of a second: at 9 cells to a
+/// chord or at as many more as resolve it, at most those of `settings`, the grid of the run.
+FlowCost measureFlowCost(const Planform& planform, const GridSettings& settings);
 
-/// Bytes that the flow solver holds for a grid, on all processes together.
-double flowMemory(const Grid& grid, int processes);
+/// Bytes that the flow solver holds for a grid in `here` of its `processes`, those of one machine.
+double flowMemory(const Grid& grid, int processes, int here);
+/// Bytes more that process 0 holds while it makes a checkpoint.
+double checkpointMemory(const Grid& grid);
 
 /// Unknowns of the wing's capacitance system: its faces and those beside its rim.
 long capacitanceUnknowns(const Grid& grid);

@@ -24,5 +24,7 @@ class Processes {
 
 /// Processes that makeNavierStokes will share its grid among.
 int flowProcesses();
+/// As many of them as share the memory of this machine, counted when `Processes` was made.
+int flowProcessesHere();
 
 }  // namespace monarch_flight

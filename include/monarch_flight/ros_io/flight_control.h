@@ -56,7 +56,7 @@ class FlightControl : public RunControl, public StepSink {
   void onGoal(Goal goal);
   void onCancel(Goal goal);
   std::optional<Flown> takeGoal();
-  void endGoal(const RunPlace& place);
+  void endGoal();
 
   TimeGrid time_;
   bool keeps_;  // the run makes checkpoints

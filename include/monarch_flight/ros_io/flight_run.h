@@ -17,8 +17,9 @@ namespace monarch_flight {
 class FlightRun {
  public:
   /// Makes the folder `out`, or goes on from the newest checkpoint in it (`resume`) and says from
-  /// which. `listeners` also get the messages. Throws InputError, OutputError.
-  FlightRun(const Case& c, const std::string& out, bool resume,
+  /// which. `ranks`: processes of the flow. `listeners` also get the messages. Throws InputError,
+  /// OutputError.
+  FlightRun(const Case& c, const std::string& out, bool resume, int ranks,
             std::vector<MessageOutput*> listeners);
   /// Delivers to `sink`, too, after everything is written; it must outlive this.
   void addSink(StepSink& sink) { last_.push_back(&sink); }

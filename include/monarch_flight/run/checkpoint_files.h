@@ -12,6 +12,7 @@ struct CheckpointFacts {
   std::uint32_t step = 0;
   std::string version;  ///< of the program that made it
   std::string case_name, case_sha256;
+  int ranks = 0;  ///< processes of the flow, which the fluid's part fits; 0: not told
 };
 
 /// The folder <run>/checkpoints: a folder step_<n> for each checkpoint that counts, with one HDF5

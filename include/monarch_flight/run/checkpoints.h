@@ -24,8 +24,9 @@ std::string checkpointFolder(const std::string& out);
 class Checkpoints : public Keeper {
  public:
   /// `resume`: the run goes on from the newest checkpoint in `out` that is whole, of this case and
-  /// fits the tables. Throws InputError with what is wrong with each of them when there is none.
-  Checkpoints(const Case& c, const std::string& out, bool resume);
+  /// fits the tables. `ranks`: processes of the flow; a resumed one must have as many. Throws
+  /// InputError with what is wrong with each checkpoint when none can be used.
+  Checkpoints(const Case& c, const std::string& out, bool resume, int ranks = 1);
 
   std::optional<std::uint32_t> resumed() const override;
   void load(const ShowState& coordinator) override;
@@ -37,6 +38,8 @@ class Checkpoints : public Keeper {
 
   /// Step of the newest checkpoint, if there is one.
   const std::optional<std::uint32_t>& kept() const { return kept_; }
+  /// What scripts/fly needs to go on from it.
+  std::string command() const;
   /// Set by a resumed run only.
   const std::optional<Resumption>& resumption() const { return resumption_; }
   /// What the outputs have shown at the checkpoint; nullptr: a new run. Throws CheckpointError.
@@ -49,6 +52,7 @@ class Checkpoints : public Keeper {
 
   CheckpointFiles files_;
   CheckpointFacts facts_;
+  std::string out_;
   std::string case_yaml_;
   std::uint32_t every_;
   std::optional<std::uint32_t> kept_;  // the newest checkpoint

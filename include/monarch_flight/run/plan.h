@@ -14,24 +14,32 @@ struct RunPlan {
   double in_plane = 0.0, first_height = 0.0;           ///< smallest spacings [m]
   double stokes_layer = 0.0;    ///< sqrt(2 nu / omega) of the flapping; 0 without a period [m]
   double cells_in_layer = 0.0;  ///< that it holds, counted from the wing
-  double reynolds = 0.0;        ///< of the peak tip speed and the mean chord
-  double courant_tip = 0.0, courant_body = 0.0;  ///< peak speeds of tip and root x dt / in_plane
+  double reynolds = 0.0;        ///< of the wing's fastest point and the mean chord
+  double courant_tip = 0.0, courant_body = 0.0;  ///< peak speeds of outline and root x dt / in_plane
   double courant_flow = 0.0;  ///< expected of the flow round the wing: what the solver watches
   double courant_limit = 0.0;
+  double captured = 0.0;  ///< area of the wing's staircase over that of its outline
   double memory = 0.0, memory_left = 0.0;  ///< needed; available on this machine [bytes]
-  int ranks = 1;
+  int ranks = 1;       ///< processes of the flow
+  int ranks_here = 1;  ///< of them on this machine
   long steps = 0;
   double evaluations = 0.0;            ///< of the air in a step, expected
   double setup_s = 0.0, step_s = 0.0;  ///< expected wall time [s]
+  double exchange_s = 0.0;  ///< the longest answer to a node that waits, START apart [s]
   double run_s() const { return setup_s + steps * step_s; }
+  /// Least watchdog_s with which the nodes wait long enough for these times [s].
+  double watchdogNeeded() const;
 };
 
-/// Plans a case on `ranks` processes; calibrates the time by a few coarse steps (a fraction of a
-/// second). Precondition: c.fluid is Navier-Stokes.
-RunPlan planRun(const Case& c, int ranks);
+/// Plans a case on `ranks` processes, `here` of them on this machine (0: all); calibrates the time
+/// by a few coarse steps (a fraction of a second). Precondition: c.fluid is Navier-Stokes.
+RunPlan planRun(const Case& c, int ranks, int here = 0);
 
-/// Throws InputError when the machine cannot hold the run (docs/case_files.md, grid).
+/// Throws InputError when the machine cannot hold the run, or the grid misses the wing
+/// (docs/case_files.md, grid).
 void requirePossible(const RunPlan& plan);
+/// Throws InputError when nodes that wait so long [s] would give the fluid up.
+void requireInTime(const RunPlan& plan, double watchdog_s);
 
 /// Some lines for people.
 std::string describe(const RunPlan& plan);

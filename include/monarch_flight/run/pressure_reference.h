@@ -9,9 +9,9 @@ struct PressureReference {
   double dynamic = 1.0;  ///< rho U_ref^2 / 2 [Pa]
 };
 
-/// U_ref is the largest speed of the wing's tip through the air that the prescribed motion reaches
-/// in the first period, or in the run where that is shorter or there is no period; 1 m/s when it
-/// does not move. One constant for the whole run, so that colours of different times compare.
+/// U_ref is the largest speed of the wing's outline through the air in the first period
+/// (wing_speeds.h, referenceSpeed); 1 m/s when it does not move. One constant for the whole run, so
+/// that colours of different times compare.
 PressureReference pressureReference(const Case& c);
 
 }  // namespace monarch_flight

@@ -1,0 +1,59 @@
+#include "monarch_flight/run/wing_speeds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace monarch_flight {
+namespace {
+
+/// Points of the outline, wing axes. The speed of a rigid body is a convex function of the place,
+/// so that it is largest on the outline, and there at the corners first of all.
+std::vector<Eigen::Vector3d> outline(const Planform& wing) {
+  constexpr int kStations = 32;
+  std::vector<double> stations = wing.breaks();
+  for (int i = 0; i <= kStations; ++i) {
+    stations.push_back(wing.yRoot() + wing.span() * i / kStations);
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (const double y : stations) {
+    points.emplace_back(wing.leading(y), y, 0.0);
+    points.emplace_back(wing.trailing(y), y, 0.0);
+  }
+  return points;
+}
+
+double wholeRun(const TimeGrid& time) { return time.steps * time.dt; }
+
+}  // namespace
+
+WingSpeeds peakWingSpeeds(const Case& c, double duration) {
+  constexpr std::uint32_t kMost = 2000;
+  const double steps = std::max(1.0, std::ceil(duration / c.time.dt * (1.0 - 1e-12)));
+  const auto intervals = static_cast<std::uint32_t>(std::min<double>(kMost, steps));
+  const std::vector<Eigen::Vector3d> points = outline(c.insect.planform);
+  WingSpeeds peak;
+  for (std::uint32_t i = 0; i <= intervals; ++i) {
+    const PrescribedState state = c.motion->at(c.time.t_start + duration * i / intervals);
+    const WingMotion wing = rightWingMotion(c.insect, state.body, state.angles);
+    const Eigen::Vector3d root = wing.v_W - wing.R_IW.transpose() * c.air.wind_I;
+    peak.root = std::max(peak.root, root.norm());
+    for (const Eigen::Vector3d& point : points) {
+      peak.outline = std::max(peak.outline, (root + wing.omega_W.cross(point)).norm());
+    }
+  }
+  return peak;
+}
+
+WingSpeeds peakWingSpeeds(const Case& c) { return peakWingSpeeds(c, wholeRun(c.time)); }
+
+double referenceSpeed(const Case& c) {
+  const double whole = wholeRun(c.time);
+  return peakWingSpeeds(c, c.time.period > 0.0 ? std::min(c.time.period, whole) : whole).outline;
+}
+
+double vortexThreshold(const Case& c) {
+  return 0.1 * std::pow(referenceSpeed(c) / c.insect.planform.meanChord(), 2);
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,43 @@
+// Process 1 alone has no memory for its part of the flow: all end at once, with its reason. Run by
+// mpirun with 2 processes; must fail with the words "process 1 of the flow failed alone".
+#include <mpi.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "fluid/shared_flow.h"
+
+using namespace monarch_flight;
+
+namespace {
+
+/// Lets this process grow by `bytes` and no further.
+void limitMemory(long bytes) {
+  long pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit limit{};
+  limit.rlim_cur = limit.rlim_max = static_cast<rlim_t>(pages * 4096 + bytes);
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 1) {
+    limitMemory(20L << 20);
+    SharedFlow::serve(MPI_COMM_WORLD);
+  } else {
+    const Grid grid = makeGrid(Planform::rectangle(1.0, 2.0, 0.5), GridSettings::preset("standard"));
+    SharedFlow flow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD);
+    flow.start(WingMotion(), 0.01);
+    flow.evaluate(WingMotion());
+    std::puts("the flow was made nevertheless");
+    SharedFlow::dismiss(MPI_COMM_WORLD);
+  }
+  MPI_Finalize();
+  return 0;
+}
