@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/frames.h"
 #include "monarch_flight/viz/colours.h"
 
 namespace monarch_flight {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/frames.h"
 #include "monarch_flight/viz/colours.h"
 
 namespace monarch_flight {

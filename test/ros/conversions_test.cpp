@@ -9,7 +9,7 @@
 
 #include "monarch_flight/math/rotation.h"
 #include "monarch_flight/ros_io/flight_messages.h"
-#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/frames.h"
 
 namespace monarch_flight {
 namespace {
@@ -176,6 +176,15 @@ TEST(Conversions, AFlowThatDoesNotFitItsGridIsNamed) {
   flow.pressure.pop_back();
   reply.flow = std::make_shared<FlowField>(flow);
   EXPECT_EQ("a flow whose arrays do not fit its 6 cells", problem(toMessage(reply)));
+  flow = smallFlow();
+  flow.q[1] = std::numeric_limits<float>::quiet_NaN();
+  reply.flow = std::make_shared<FlowField>(flow);
+  EXPECT_EQ("a flow that is not finite", problem(toMessage(reply)));
+  reply.flow = std::make_shared<FlowField>(smallFlow());
+  ParticipantReply twice = toMessage(reply);
+  EXPECT_EQ("", problem(twice));
+  twice.flow.push_back(twice.flow.front());
+  EXPECT_EQ("2 flows, at most one fits", problem(twice));
 }
 
 TEST(Conversions, IterationRecordsCrossBitForBit) {
