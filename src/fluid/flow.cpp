@@ -237,7 +237,8 @@ void NavierStokes::prepareStep() {
     std::ostringstream s;
     s << "Courant number " << report_.courant << " exceeds " << limit << ", "
       << (steps_ < kStartSteps ? "in the first steps twice " : "")
-      << "grid/courant_limit = " << courant_limit_ << ": use more steps a flap, a coarser grid, or raise the limit";
+      << "grid/courant_limit = " << courant_limit_
+      << ": use more steps a flap, a coarser grid, or raise the limit";
     throw NumericalError(s.str());
   }
   momentum_.prepare(step_, vn_, vm_, convecting_, p_, level_n_.wall);

@@ -29,7 +29,8 @@ TEST(KernelTimes, AddUpToTheTimeOfTheSteps) {
   NavierStokes flow(makeGrid(Planform::ellipse(1.0, 2.0, 0.3), s), Air(), 1.0, 10.0);
   flow.start(flapping(0), 0.01);
   EXPECT_EQ(0.0, sum(flow.report().kernel_s));
-  double seen = 0.0;  // share of the wall time, the best of some steps: others may take the processor
+  double seen =
+      0.0;  // share of the wall time, the best of some steps: others may take the processor
   for (int n = 1; n <= 20; ++n) {
     const double before = sum(flow.report().kernel_s);
     const auto begin = std::chrono::steady_clock::now();

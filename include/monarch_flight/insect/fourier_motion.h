@@ -23,7 +23,7 @@ struct FourierSeries {
 /// around that a periodic sway.
 struct FourierMotionSettings {
   double frequency = 0.0;  ///< flapping frequency [Hz]; 0 only with constant angles
-  FourierSeries phi, psi, theta, theta_A, pitch;  ///< [rad]
+  FourierSeries phi, psi, theta, theta_A, pitch;       ///< [rad]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< at t = 0, F_I (NED) [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< F_I (NED) [m/s]
   FourierSeries sway_x, sway_z;  ///< added to the position along x and z of F_I, coefficients [m]
