@@ -27,12 +27,22 @@ RosParticipant::RosParticipant(const ros::NodeHandle& node, const LockstepIdenti
       run_(run),
       node_(node, roleName(identity.role)),
       hello_out_(node_, "coordinator_hello", true, run.queue, identity.token),
-      requests_(node_, "request", false, run.queue, identity.token),
-      hello_in_(subscribeOn(run.queue, node_, "hello", identity.token, counters_,
-                            &RosParticipant::onHello, this)),
-      replies_(subscribeOn(run.queue, node_, "reply", identity.token, counters_,
-                           &RosParticipant::onReply, this)) {
+      requests_(node_, "request", false, run.queue, identity.token) {
+  seekHello();
+  seekReplies();
   run_.participants.push_back(this);
+}
+
+void RosParticipant::seekHello() {
+  hello_in_.shutdown();
+  hello_in_ = subscribeOn(run_.queue, node_, "hello", identity_.token, counters_,
+                          &RosParticipant::onHello, this);
+}
+
+void RosParticipant::seekReplies() {
+  replies_.shutdown();
+  replies_ = subscribeOn(run_.queue, node_, "reply", identity_.token, counters_,
+                         &RosParticipant::onReply, this);
 }
 
 std::string RosParticipant::name() const {
@@ -47,7 +57,13 @@ bool RosParticipant::ready() const { return connected() && replies_.getNumPublis
 void RosParticipant::connect() {
   greet();
   const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(run_.limits.connect_s);
+  ros::SteadyTime renewal = ros::SteadyTime::now() + kRenewal;
   while (!ready()) {
+    if (ros::SteadyTime::now() >= renewal) {
+      if (!answer_) seekHello();
+      if (replies_.getNumPublishers() == 0) seekReplies();
+      renewal = ros::SteadyTime::now() + kRenewal;
+    }
     run_.queue.callAvailable(slice(deadline));
     if (answer_ && !answer_->refusal.empty()) {
       throw ExchangeError(name() + " refuses the run: " + answer_->refusal);

@@ -28,11 +28,31 @@ LockstepServer::LockstepServer(const ros::NodeHandle& node, const LockstepIdenti
       stop_(stop),
       node_(node, roleName(identity.role)),
       hello_out_(node_, "hello", true, queue_, identity.token),
-      replies_(node_, "reply", false, queue_, identity.token),
-      hello_in_(subscribeOn(queue_, node_, "coordinator_hello", identity.token, counters_,
-                            &LockstepServer::onHello, this)),
-      requests_(subscribeOn(queue_, node_, "request", identity.token, counters_,
-                            &LockstepServer::onRequest, this)) {}
+      replies_(node_, "reply", false, queue_, identity.token) {
+  seekHello();
+  seekRequests();
+}
+
+void LockstepServer::seekHello() {
+  hello_in_.shutdown();
+  hello_in_ = subscribeOn(queue_, node_, "coordinator_hello", identity_.token, counters_,
+                          &LockstepServer::onHello, this);
+}
+
+void LockstepServer::seekRequests() {
+  requests_.shutdown();
+  requests_ = subscribeOn(queue_, node_, "request", identity_.token, counters_,
+                          &LockstepServer::onRequest, this);
+}
+
+/// Before the first request: subscribes anew to what is still missing.
+void LockstepServer::seekCoordinator() {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (started_ || now < renewal_) return;
+  renewal_ = now + kRenewal;
+  if (!coordinator_) seekHello();
+  if (requests_.getNumPublishers() == 0) seekRequests();
+}
 
 bool LockstepServer::coordinatorListens() const {
   return coordinator_ && replies_.heardBy(coordinator_->node);
@@ -45,6 +65,7 @@ void LockstepServer::serve() {
   while (!ended_) {
     queue_.callAvailable(kSlice);
     if (ended_) break;
+    seekCoordinator();
     if (!ros::ok() || graceIsOver()) throw ExchangeError("interrupted");
     if (!coordinatorListens()) {
       throw ExchangeError("the coordinator (" + coordinator_->node +
@@ -78,8 +99,10 @@ void LockstepServer::letCoordinatorLeave() {
 
 void LockstepServer::waitForCoordinator() {
   const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(limits_.connect_s);
+  renewal_ = ros::SteadyTime::now() + kRenewal;
   while (!coordinatorListens()) {
     queue_.callAvailable(kSlice);
+    seekCoordinator();
     if (!refusal_.empty()) refuse();
     if (stop_ || !ros::ok()) throw ExchangeError("interrupted while waiting for the coordinator");
     if (ros::SteadyTime::now() > deadline) {

@@ -20,6 +20,9 @@
 namespace monarch_flight {
 namespace {
 
+// A master that goes while nodes register with it is asked again for so long; roscpp's own limit is none.
+const ros::WallDuration kMasterPatience(10.0);
+
 StopFlag stop_requested{false};
 
 void requestStop(int) { stop_requested = true; }
@@ -53,6 +56,7 @@ int nodeMain(const std::string& name, int argc, char** argv, const std::function
     preferLoopback();
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     requireFreeMaster();
+    ros::master::setRetryTimeout(kMasterPatience);
     const Farewell farewell;
     startOnLoopback();
     return body();

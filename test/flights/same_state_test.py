@@ -5,6 +5,7 @@ import os
 import unittest
 
 import rosbag
+import yaml
 
 import flying
 
@@ -19,6 +20,8 @@ TOPICS = {
     "/monarch_flight/wing_pressure", "/monarch_flight/iterations"}
 FILES = ["case.yaml", "checkpoints", "flight.bag", "flight.csv", "iterations.csv", "summary.json"]
 STEPS, PRESCRIBED, TOLERANCE = 500, 10, 1e-8
+TINY = {"level": "custom", "cells_per_chord": 6, "first_cell": 0.08, "growth_plane": 1.3, "growth_normal": 1.3,
+        "far_field": 3, "margin": 0.25, "outer": "rest", "courant_limit": 3}
 
 
 class SameState(flying.FlightTest):
@@ -45,6 +48,26 @@ class SameState(flying.FlightTest):
             self.check_iterations(folder)
             self.check_bag(folder)
         self.check_case_flies_alone(nodes["state_sha256"])
+
+    def test_navier_stokes_air_and_answers_at_random_times(self):
+        """On a grid of some ten thousand cells, with every answer up to 5 ms late."""
+        with open(os.path.join(flying.ROOT, "config", "cases", "climb.yaml")) as f:
+            case = yaml.safe_load(f)
+        case["grid"] = TINY
+        path = self.out("tiny.yaml")
+        with open(path, "w") as f:
+            yaml.safe_dump(case, f)
+        flights = {"process": (("in_process:=true",), {}), "nodes": ((), {}),
+                   "late": ((), {"MONARCH_ANSWER_DELAY_MS": "5"})}
+        for name, (keys, environment) in flights.items():
+            code, output = self.fly("case:=" + path, "flaps:=0.16", "out:=" + self.out(name), *keys, **environment)
+            self.assertEqual(code, 0, output)
+        first = flying.summary(self.out("process"))
+        self.assertEqual((first["steps"], first["unconverged_steps"]), (80, 0))
+        for name in ("nodes", "late"):
+            other = flying.summary(self.out(name))
+            self.assertEqual(other["state_sha256"], first["state_sha256"], name)
+            self.assertEqual(other["sub_iterations"], first["sub_iterations"], name)
 
     def check_summary(self, s):
         self.assertEqual((s["status"], s["failure"]), ("complete", ""))

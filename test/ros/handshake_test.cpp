@@ -123,6 +123,30 @@ TEST(Limits, FollowFromTheWatchdog) {
   EXPECT_EQ(30.0, limitsFor(2.0).connect_s);
 }
 
+// Both ends subscribe anew to what is missing; who comes meanwhile is found as if nothing had been.
+TEST_F(Lockstep, WhoComesAfterTheOtherHasSubscribedAnewIsFound) {
+  const ros::WallDuration late = kRenewal + ros::WallDuration(0.5);
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  std::thread solver_comes([&] {
+    late.sleep();
+    startServer(fluid);
+  });
+  EXPECT_NO_THROW(client->connect());
+  solver_comes.join();
+  EXPECT_EQ("", client->exchange(request(0, 0, Phase::kStart)).error);
+  client->exchange(request(0, 0, Phase::kAbort));
+  client.reset();
+  joinServer();
+  EXPECT_EQ("ended", server_end);
+
+  startServer(fluid);
+  late.sleep();
+  client = std::make_unique<RosParticipant>(node, fluid, run);
+  EXPECT_NO_THROW(client->connect());
+  EXPECT_EQ("", client->exchange(request(0, 0, Phase::kStart)).error);
+  EXPECT_EQ(0u, client->ignored().total());
+}
+
 }  // namespace
 }  // namespace monarch_flight
 

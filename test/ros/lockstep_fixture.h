@@ -42,6 +42,7 @@ inline LockstepLimits shortLimits() {
   limits.exchange_s = 1.0;
   limits.start_s = 2.0;
   limits.silence_s = 30.0;
+  limits.grace_s = 0.3;
   return limits;
 }
 

@@ -42,6 +42,10 @@ LockstepLimits limitsFor(double watchdog_s);
 /// Nothing is lost while at most this many wait.
 constexpr std::uint32_t kOutgoing = 8, kIncoming = 1000;
 
+/// A subscriber asks a publisher once for a connection; roscpp does not ask again where that fails,
+/// as it may on a machine under load. So what is missing after this time is subscribed to anew.
+const ros::WallDuration kRenewal(3.0);
+
 /// "12.5 s", for messages.
 std::string inSeconds(double s);
 

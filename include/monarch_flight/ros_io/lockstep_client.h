@@ -52,6 +52,8 @@ class RosParticipant : public Participant {
   IgnoredMessages ignored() const override;
 
  private:
+  void seekHello();
+  void seekReplies();
   void onHello(const HelloConstPtr& hello);
   void onReply(const ParticipantReplyConstPtr& reply);
   void requireAlive(const ExchangeKey& key) const;
