@@ -1,7 +1,7 @@
 # Proofs of the flight dynamics: built only when asked for (`make verify_dynamics`; scripts/verify
 # dynamics does). Simbody, the independent engine, is used by these alone.
 find_package(Simbody QUIET)
-file(GLOB dynamics_sources CONFIGURE_DEPENDS bench/dynamics/*.cpp)
+file(GLOB dynamics_sources CONFIGURE_DEPENDS bench/dynamics/*.cpp bench/verify/report.cpp)
 if(NOT Simbody_FOUND)
   list(FILTER dynamics_sources EXCLUDE REGEX "simbody")
 endif()

@@ -1,11 +1,10 @@
 // The flow solver against exact solutions, tables, experiments and itself (docs/verification.md).
 #include <cstdio>
-#include <cstring>
 #include <exception>
-#include <filesystem>
 #include <string>
+#include <vector>
 
-#include "monarch_flight/math/errors.h"
+#include "verify/report.h"
 #include "verify/subjects.h"
 
 namespace monarch_flight::verify {
@@ -27,47 +26,17 @@ constexpr Subject kSubjects[] = {
     {"outer", false, outerBoundary},
 };
 
-std::string names() {
-  std::string all;
-  for (const Subject& s : kSubjects) all += std::string(" ") + s.name + (s.quick ? "" : "*");
-  return all;
-}
-
-std::vector<const Subject*> chosen(const std::vector<std::string>& wanted) {
-  std::vector<const Subject*> list;
-  for (const Subject& s : kSubjects) {
-    bool take = wanted.empty() && s.quick;
-    for (const std::string& name : wanted) take = take || name == "all" || name == s.name;
-    if (take) list.push_back(&s);
-  }
-  for (const std::string& name : wanted) {
-    bool known = name == "all";
-    for (const Subject& s : kSubjects) known = known || name == s.name;
-    if (!known)
-      throw InputError("unknown subject \"" + name + "\": must be all or one of" + names());
-  }
-  return list;
-}
-
 int run(int argc, char** argv) {
-  std::string out = "verification";
-  std::vector<std::string> wanted;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strncmp(argv[i], "out:=", 5) == 0) {
-      out = argv[i] + 5;
-    } else {
-      wanted.push_back(argv[i]);
-    }
-  }
-  const auto subjects = chosen(wanted);
-  std::filesystem::create_directories(out);
-  std::printf("%-16s %-34s %-26s %12s %12s %10s %10s\n", "case", "quantity", "resolution",
-              "computed", "reference", "error", "bound");
+  std::vector<std::string> known;
+  for (const Subject& s : kSubjects) known.push_back(s.name);
+  const Request request(argc, argv, known);
+  printHead();
   int failed = 0;
-  for (const Subject* s : subjects) {
-    Report report(s->name);
-    s->run(report);
-    write(s->name, report, out);
+  for (const Subject& s : kSubjects) {
+    if (!request.takes(s.name, s.quick)) continue;
+    Report report(s.name);
+    s.run(report);
+    write(s.name, report, request.out);
     for (const Row& r : report.rows()) failed += !r.pass;
   }
   std::printf("%d outside their bound\n", failed);

@@ -14,6 +14,15 @@ struct FlapSeries {
   double worst_courant = 0;
 };
 
+struct Quantity {
+  const char* name;
+  std::vector<double> FlapSeries::*series;
+};
+constexpr Quantity kQuantities[] = {{"lift", &FlapSeries::lift},
+                                    {"thrust", &FlapSeries::thrust},
+                                    {"pitch moment", &FlapSeries::M_y},
+                                    {"power", &FlapSeries::power}};
+
 /// Flies the case for so many flaps; results are kept for the length of the program.
 const FlapSeries& monarchSeries(const GridSettings& grid, int steps_per_flap, int flaps);
 

@@ -15,15 +15,6 @@ constexpr int kSteps = 500, kFlaps = 3;
 constexpr double kFar[] = {6, 10, 16};  // mean chords; 10 is that of every level
 constexpr double kBound = 0.01;         // of the peak
 
-struct Quantity {
-  const char* name;
-  std::vector<double> FlapSeries::*series;
-};
-constexpr Quantity kQuantities[] = {{"lift", &FlapSeries::lift},
-                                    {"thrust", &FlapSeries::thrust},
-                                    {"pitch moment", &FlapSeries::M_y},
-                                    {"power", &FlapSeries::power}};
-
 const FlapSeries& flown(double far, const char* outer) {
   GridSettings grid = GridSettings::preset("preview");
   grid.far_field = far;

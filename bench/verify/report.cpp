@@ -1,5 +1,6 @@
 #include "verify/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -16,9 +17,11 @@ using nlohmann::ordered_json;
 void Report::add(Row row) {
   row.subject = subject_;
   const bool bounded = !std::isnan(row.bound);
+  char bound[16] = "-";
+  if (bounded) std::snprintf(bound, sizeof bound, "%.3g", row.bound);
   std::printf("%-16s %-34s %-26s %12.5g %12.5g %10.2e %10s %s\n", row.subject.c_str(),
               row.quantity.c_str(), row.resolution.c_str(), row.computed, row.reference, row.error,
-              bounded ? (std::to_string(row.bound)).c_str() : "-",
+              bound,
               !bounded   ? ""
               : row.pass ? "pass"
                          : "FAIL");
@@ -51,6 +54,32 @@ void Report::state(const std::string& quantity, const std::string& resolution, d
        std::numeric_limits<double>::quiet_NaN(), true});
 }
 
+void printHead() {
+  std::printf("%-16s %-34s %-26s %12s %12s %10s %10s\n", "case", "quantity", "resolution",
+              "computed", "reference", "error", "bound");
+}
+
+Request::Request(int argc, char** argv, const std::vector<std::string>& known) {
+  std::string list;
+  for (const std::string& name : known) list += " " + name;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument.rfind("out:=", 0) == 0) {
+      out = argument.substr(5);
+    } else if (argument == "all" || std::count(known.begin(), known.end(), argument)) {
+      names.push_back(argument);
+    } else {
+      throw InputError("unknown subject \"" + argument + "\": must be all or one of" + list);
+    }
+  }
+}
+
+bool Request::takes(const std::string& name, bool by_default) const {
+  if (names.empty()) return by_default;
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& n) { return n == "all" || n == name; });
+}
+
 namespace {
 
 /// The list in `path` without the items of `subject`.
@@ -75,6 +104,7 @@ void replace(const std::string& path, const ordered_json& list) {
 }  // namespace
 
 void write(const std::string& subject, const Report& report, const std::string& directory) {
+  std::filesystem::create_directories(directory);
   const std::string table = directory + "/verification.json", plots = directory + "/curves.json";
   ordered_json rows = others(table, subject), curves = others(plots, subject);
   for (const Row& r : report.rows()) {

@@ -34,16 +34,31 @@ class Report {
   /// No bound.
   void state(const std::string& quantity, const std::string& resolution, double computed,
              double reference);
+  /// A row whose error was formed elsewhere; its subject is set here.
+  void add(Row row);
   void curve(Curve curve) { curves_.push_back(std::move(curve)); }
 
   const std::vector<Row>& rows() const { return rows_; }
   const std::vector<Curve>& curves() const { return curves_; }
 
  private:
-  void add(Row row);
   std::string subject_;
   std::vector<Row> rows_;
   std::vector<Curve> curves_;
+};
+
+/// Prints the head of the table.
+void printHead();
+
+/// What a person asked for on the command line.
+struct Request {
+  std::vector<std::string> names;
+  std::string out = "verification";  ///< out:=DIR
+
+  /// Throws InputError when a name is not among `known`.
+  Request(int argc, char** argv, const std::vector<std::string>& known);
+  /// No names: `by_default`; "all": everything.
+  bool takes(const std::string& name, bool by_default = true) const;
 };
 
 /// Puts the rows and curves into DIR/verification.json and DIR/curves.json; what these hold of

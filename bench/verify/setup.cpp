@@ -19,7 +19,7 @@ Extrapolated extrapolate(const double h[3], const double f[3]) {
       (of(order) > ratio ? high : low) = order;
     }
   }
-  const double p = std::isnan(order) ? 1 : std::clamp(order, 1.0, 2.5);
+  const double p = std::isnan(order) ? 1 : std::clamp(order, 0.5, 2.5);
   const double share = std::pow(h[2], p) / (std::pow(h[1], p) - std::pow(h[2], p));
   return {order, f[2] - share * (f[1] - f[2])};
 }

@@ -96,7 +96,8 @@ inline double alternation(const std::vector<double>& f, std::size_t begin) {
 /// Richardson's extrapolation from three values at spacings h[0] > h[1] > h[2].
 struct Extrapolated {
   double order;  ///< observed, NaN when the values do not converge monotonically
-  double value;  ///< with the observed order within [1, 2.5]; otherwise with the nearer of the two
+  double value;  ///< with the observed order within [0.5, 2.5], or the nearer of the two; without
+                 ///< one, 1
 };
 Extrapolated extrapolate(const double h[3], const double f[3]);
 

@@ -63,7 +63,7 @@ std::vector<char> NavierStokes::save() const {
   std::vector<char> mine;
   Writer w(mine);
   w(layout_.nx), w(layout_.ny), w(layout_.nz), w(layout_.k0), w(layout_.k1);
-  w(dt_), w(steps_), w(prepared_);
+  w(dt_), w(steps_), w(prepared_), w(report_.divergence);
   exchangeLevel(w, level_n_);
   exchangeLevel(w, level_m_);
   for (int i = 0; i < 9; ++i) w(predicted_frame_.data()[i]);
@@ -103,7 +103,7 @@ void NavierStokes::restore(const std::vector<char>& bytes) {
       n[4] != layout_.k1) {
     throw std::invalid_argument("fluid state: made on another grid");
   }
-  r(dt_), r(steps_), r(prepared_);
+  r(dt_), r(steps_), r(prepared_), r(report_.divergence);
   exchangeLevel(r, level_n_);
   exchangeLevel(r, level_m_);
   for (int i = 0; i < 9; ++i) r(predicted_frame_.data()[i]);

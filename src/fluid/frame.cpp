@@ -61,4 +61,11 @@ void rotateField(const Layout& l, const Eigen::Matrix3d& Q, const Velocity& in, 
   }
 }
 
+Eigen::Isometry3d placeOf(const WingMotion& motion) {
+  Eigen::Isometry3d place;
+  place.linear() = motion.R_IW;
+  place.translation() = motion.r_I;
+  return place;
+}
+
 }  // namespace monarch_flight

@@ -82,4 +82,12 @@ void rimLoads(const Grid& grid, const Layout& l, Momentum& momentum, const Veloc
   loads.moment_friction.y() += my;
 }
 
+void sumLoads(const Slab& slab, Loads& loads) {
+  double all[12];
+  Eigen::Map<Eigen::Matrix<double, 3, 4>> m(all);
+  m << loads.force_pressure, loads.force_friction, loads.moment_pressure, loads.moment_friction;
+  slab.sum(all, 12);
+  loads = {m.col(0), m.col(1), m.col(2), m.col(3)};
+}
+
 }  // namespace monarch_flight

@@ -1,6 +1,7 @@
 #pragma once
 #include "fluid/field.h"
 #include "fluid/momentum.h"
+#include "fluid/slab.h"
 #include "monarch_flight/fluid/fluid_model.h"
 
 namespace monarch_flight {
@@ -49,5 +50,7 @@ void frictionLoads(const Grid& grid, const Layout& l, const Momentum& momentum, 
 /// the rim. With it the loads are what the air around the wing loses. `row` is scratch of nx.
 void rimLoads(const Grid& grid, const Layout& l, Momentum& momentum, const Velocity& convecting,
               const Velocity& v_star, double rho_by_a, double* row, Loads& loads);
+/// Of all processes, on each of them.
+void sumLoads(const Slab& slab, Loads& loads);
 
 }  // namespace monarch_flight

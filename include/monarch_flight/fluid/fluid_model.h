@@ -39,7 +39,9 @@ struct LoadOperator {
 /// What a flow model says of itself after an evaluation.
 struct FluidReport {
   double courant = 0.0;           ///< largest in-plane Courant number of the step (0: not applicable)
-  double divergence = 0.0;        ///< largest relative divergence after projection (0: not applicable)
+  /// Largest net outflow of a cell over (its largest face x largest speed), of the committed flow;
+  /// taken after steps 1, 51, 101, ... (0: not applicable).
+  double divergence = 0.0;
   /// Constants of the run for summary.json. The fluid participant fills them in its answer to START (from
   /// FluidModel::cells, addedMass, operatorCost) and the coordinator hands that report on with step 0; later they are 0.
   long cells = 0;

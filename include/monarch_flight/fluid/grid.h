@@ -25,7 +25,7 @@ struct Grid {
   Axis x, y, z;
   int k_wing = 0;                     ///< z.face[k_wing] == 0: the wing's plane; k_wing cells lie below it
   bool open = false;                  ///< outer boundary: false: v = 0 (Neumann p); true: p = 0 (Dirichlet)
-  std::vector<std::uint8_t> wing;     ///< nx*ny: 1 where the z-face (i, j, k_wing) belongs to the wing (staircase: centre inside)
+  std::vector<std::uint8_t> wing;     ///< nx*ny: 1 where the z-face (i, j, k_wing) belongs to the wing (a staircase)
   Mobility mobility;                  ///< of the faces near the wing, from the mask
   long cells() const { return long(x.n()) * y.n() * z.n(); }
   bool isWing(int i, int j) const { return wing[static_cast<std::size_t>(j) * x.n() + i] != 0; }
