@@ -92,7 +92,8 @@ TEST(Plan, TimeIsThatOfARun) {
   RunPlan plan;
   double ratio =
       1e9;  // of plan and step or the other way round, the better of some tries: both are
-  for (int n = 0; n < 8; ++n) {  // measured at different times, when others may have the processor
+  for (int n = 0; n < 8 && ratio > 2.5;
+       ++n) {  // measured at different times, when others may have the processor
     plan = planRun(c, 1);
     const auto begin = std::chrono::steady_clock::now();
     flow->evaluate(m);

@@ -63,7 +63,7 @@ class SameState(flying.FlightTest):
             code, output = self.fly("case:=" + path, "flaps:=0.16", "out:=" + self.out(name), *keys, **environment)
             self.assertEqual(code, 0, output)
         first = flying.summary(self.out("process"))
-        self.assertEqual((first["steps"], first["unconverged_steps"]), (80, 0))
+        self.assertEqual((first["steps"], first["retried_steps"]), (80, 0))
         for name in ("nodes", "late"):
             other = flying.summary(self.out(name))
             self.assertEqual(other["state_sha256"], first["state_sha256"], name)
