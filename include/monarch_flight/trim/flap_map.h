@@ -25,7 +25,7 @@ struct TrimParameter {
   double low = 0.0, high = 0.0;  ///< range in which it may be fitted
 };
 
-/// Known parameters (m_B, m_A, m_R, kappa, theta_0, root_x), ranges empty.
+/// Known parameters (m_B, m_A, m_R, kappa, theta_0, root_x, root_z), ranges empty.
 const std::vector<TrimParameter>& trimParameters();
 
 /// Periodic part of the motion of x, z [m], theta_B, theta_R [rad] over a flap: what the run-in
