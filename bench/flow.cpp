@@ -143,8 +143,8 @@ int main(int argc, char** argv) {
   result["operator_s"] = operatorSeconds();
   result["unknowns"] = capacitanceUnknowns(flow.grid());
   result["planned_setup_s"] = capacitanceSetup(capacitanceUnknowns(flow.grid()));
-  result["planned_bytes_per_cell"] =
-      flowMemory(flow.grid(), processes.count(), processes.count()) / static_cast<double>(flow.cells());
+  result["planned_bytes_per_cell"] = flowMemory(flow.grid(), processes.count(), processes.count()) /
+                                     static_cast<double>(flow.cells());
   result["cells"] = flow.cells();
   result["size"] = {g.x.n(), g.y.n(), g.z.n()};
   result["wing_faces"] = std::count(g.wing.begin(), g.wing.end(), 1);

@@ -108,7 +108,11 @@ class SolverNode:
             self.over.set()
         elif key.phase == CouplingKey.CHECKPOINT:  # may come within the next step
             if self.kept is None or order(self.kept.key) != order(key):
-                self.kept = self.compute(request)
+                reply = self.compute(request)
+                if reply.error:  # asked again, it is tried again
+                    self.answer(request, reply)
+                    return
+                self.kept = reply
             self.answer(request, self.kept)
         elif self.cache is None or order(key) > order(self.cache.key):
             begin = time.monotonic()

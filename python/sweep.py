@@ -16,7 +16,7 @@ import case_files
 import figure_data as data
 import marker_reduction as reduction
 
-COLUMNS = ("name", "status", "flaps", "steps not converged", "climb [deg]", "speed [m/s]", "theta_B mean [deg]", "theta_B swing [deg]",
+COLUMNS = ("name", "status", "flaps", "steps retried", "climb [deg]", "speed [m/s]", "theta_B mean [deg]", "theta_B swing [deg]",
            "largest theta_B [deg]", "theta_R swing [deg]", "theta_R amplitude / measured", "theta_R phase - measured [deg]",
            "theta_R to measured, rms [deg]", "path to measured, rms [mm]")
 
@@ -69,7 +69,7 @@ def row(summary):
     part = {k: v[late] for k, v in flight.items()}
     dx, dz = part["x"][-1] - part["x"][0], part["z"][-1] - part["z"][0]
     theta_B, theta_R = np.degrees(part["theta_B"]), np.degrees(part["theta_R"])
-    return (folder.name, told["status"], told["flaps"], told["unconverged_steps"], math.degrees(math.atan2(-dz, dx)),
+    return (folder.name, told["status"], told["flaps"], told["retried_steps"], math.degrees(math.atan2(-dz, dx)),
             math.hypot(dx, dz) / (part["t"][-1] - part["t"][0]), theta_B.mean(), np.ptp(theta_B), np.abs(theta_B).max(),
             np.ptp(theta_R), *pitch_to_measured(part, case["motion"]["frequency"]), 1e3 * data.distance_to_measured(flight))
 

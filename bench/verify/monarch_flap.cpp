@@ -53,7 +53,7 @@ void study(Report& report, const char* what, const double h[3], const FlapSeries
     report.state(name + ": finest peak", resolution, peak[2], p.value);
     report.state(name + ": order of mean, of peak", resolution, m.order, p.order);
     Curve c{std::string("monarch_flap_") + what,
-            what,
+            std::string(what) == "grid" ? "spacing [chords]" : "time step [periods]",
             "(value - extrapolated) / peak",
             q.name,
             {},

@@ -8,6 +8,7 @@
 #include "monarch_flight/coupling/interface_values.h"
 #include "monarch_flight/flight/multibody_dynamics.h"
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/math/seconds_since.h"
 
 namespace monarch_flight {
 namespace {
@@ -16,10 +17,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kDivergence = 1e3;  // growth of the residual at which an attempt is given up
 constexpr double kCautious = 0.25;   // relaxation of the second attempt over that of the first
-
-double secondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 /// What the coordinator itself took of a step that began at `begin`.
 double ownSeconds(Clock::time_point begin, const CommittedStep& step) {

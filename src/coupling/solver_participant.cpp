@@ -4,6 +4,7 @@
 #include "monarch_flight/coupling/interface_values.h"
 #include "monarch_flight/coupling/participants.h"
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/math/seconds_since.h"
 
 namespace monarch_flight {
 namespace {
@@ -17,10 +18,6 @@ class Refusal : public std::invalid_argument {
 std::string place(Role role, const ExchangeKey& key) {
   return std::string(roleName(role)) + ", step " + std::to_string(key.step) + ", iteration " +
          std::to_string(key.iteration) + ", " + phaseName(key.phase) + ": ";
-}
-
-double secondsSince(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 }  // namespace

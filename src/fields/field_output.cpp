@@ -18,12 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void writeWhole(const std::string& path, const std::string& bytes) {
-  OutputFile file(path);
-  file.write(bytes);
-  file.finish();
-}
-
 /// What a VTK writer makes of a data set, as bytes.
 template <class Writer, class Data>
 std::string written(const Data& data, const std::string& path) {

@@ -7,6 +7,7 @@
 
 #include "fluid/flow.h"
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/math/seconds_since.h"
 
 namespace monarch_flight {
 namespace {
@@ -17,15 +18,11 @@ constexpr int kSteps = 5;             // that are timed, the best of them counts
 
 // Measured, docs/performance.md ("Cost model").
 constexpr double kBytesPerCell = 170;        // 19 fields, ghosts and padding
-constexpr double kCheckpointPerCell = 216;   // seven fields with their rims, three times over
+constexpr double kCheckpointPerCell = 241;   // seven fields with their rims, three times over
 constexpr double kBytesBeside = 45e6;        // program and libraries
 constexpr double kSetupRate = 2.5e10;        // n^3 a second: assembly and inverse
 constexpr double kCapacitanceRate = 1.0e10;  // bytes a second of the inverse, half of it read
 constexpr double kChainShare = 0.20;         // of a step's time in chains along z
-
-double secondsSince(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 /// As coarse as this wing lets it be.
 Grid coarseGrid(const Planform& planform, const GridSettings& settings) {

@@ -7,9 +7,9 @@
 namespace monarch_flight {
 
 /// The flow solver on several processes, as process 0 sees it: every call is told to the others,
-/// which make the same call on their slab (`serve`). A failure that all share (wrong input, numerics)
-/// is thrown here; one of a process alone (no memory) ends them all with its reason on stderr, here
-/// when the program ends.
+/// which make the same call on their slab (`serve`). A failure that all share (wrong input,
+/// numerics) is thrown here; one of a process alone (no memory) ends them all with its reason on
+/// stderr, here when the program ends.
 class SharedFlow : public FluidModel {
  public:
   SharedFlow(const Grid& grid, const Air& air, double reference_length, double courant_limit,

@@ -70,8 +70,8 @@ void requireOrderedEdges(const std::function<double(double)>& leading,
 /// A wing is one piece: no stretch without a chord between stretches that have one. Ends at the
 /// first and the last panel may have none.
 void requireOnePiece(const std::function<double(double)>& leading,
-                     const std::function<double(double)>& trailing,
-                     const std::vector<double>& ends, double scale) {
+                     const std::function<double(double)>& trailing, const std::vector<double>& ends,
+                     double scale) {
   constexpr int kSamples = 64;
   double last = ends.front(), gap_from = ends.front();
   bool begun = false, gap = false;

@@ -101,8 +101,8 @@ void requireFaithful(const std::vector<double>& y, const std::vector<double>& le
     text << "the polynomials of the edges cross, by " << -deepest << " m at y = " << at
          << " m: must be <= " << kMostCrossing << " mean chords; change the order or take type csv";
   } else if (rms > kMostResidual * mean) {
-    text << "the polynomials miss the stations by " << rms << " m (rms): must be <= "
-         << kMostResidual << " mean chords, " << kMostResidual * mean
+    text << "the polynomials miss the stations by " << rms
+         << " m (rms): must be <= " << kMostResidual << " mean chords, " << kMostResidual * mean
          << " m; raise the order or take type csv";
   }
   if (!text.str().empty()) throw std::invalid_argument(text.str());
@@ -162,8 +162,8 @@ Planform Planform::table(const std::vector<double>& y, const std::vector<double>
 Planform Planform::polynomial(const std::vector<double>& y, const std::vector<double>& leading,
                               const std::vector<double>& trailing, int order) {
   requireStations(y, leading, trailing, 2);
-  const int most = std::min(static_cast<int>(2.0 * std::sqrt(y.size())),
-                            static_cast<int>(y.size()) - 1);
+  const int most =
+      std::min(static_cast<int>(2.0 * std::sqrt(y.size())), static_cast<int>(y.size()) - 1);
   if (order < 1 || order > most) {
     throw std::invalid_argument("order of the planform's polynomials = " + std::to_string(order) +
                                 ": must be from 1 to " + std::to_string(most) + " with " +

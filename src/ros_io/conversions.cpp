@@ -262,6 +262,7 @@ std::string problem(const ParticipantReply& reply) {
   if (kernels != 0 && kernels != kKernels) {
     return "times of " + std::to_string(kernels) + " kernels, not " + std::to_string(kKernels);
   }
+  if (reply.flow.size() > 1) return std::to_string(reply.flow.size()) + " flows, at most one fits";
   for (const WholeFlow& flow : reply.flow) {
     const std::string misfit = problem(flow);
     if (!misfit.empty()) return misfit;

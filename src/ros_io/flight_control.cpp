@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "monarch_flight/math/seconds_since.h"
+
 namespace monarch_flight {
 namespace {
 
@@ -11,10 +13,6 @@ constexpr std::chrono::milliseconds kFeedback{100};  // between two of them
 constexpr char kFlies[] = "; pause it first";
 
 using Status = actionlib_msgs::GoalStatus;
-
-double secondsSince(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 bool answer(const RunPlace& place, bool good, std_srvs::Trigger::Response& response,
             const char* advice = "") {

@@ -42,8 +42,8 @@ diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep
   coupling.name = "coordinator: coupling";
   solvers.name = "coordinator: solvers";
   coupling.hardware_id = solvers.hardware_id = "monarch_flight";
-  coupling.level = step.converged ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
-  coupling.message = !step.converged   ? "step not converged"
+  coupling.level = step.retried() ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+  coupling.message = step.retried()    ? "converged at the second attempt"
                      : step.prescribed ? "prescribed step"
                                        : "converged";
   coupling.values = {entry("step", step.step),

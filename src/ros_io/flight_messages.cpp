@@ -4,8 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "monarch_flight/flight/multibody_dynamics.h"
 #include "monarch_flight/ros_io/conversions.h"
-#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/frames.h"
 #include "monarch_flight/viz/urdf.h"
 #include "monarch_flight/viz/vortex_cloud.h"
 
@@ -60,15 +61,14 @@ sensor_msgs::JointState jointState(const JointAngles& a, bool bare_wing, const r
   return out;
 }
 
-// The left wing's loads, in its own axes, are the mirror image of the right wing's.
-geometry_msgs::WrenchStamped wrench(const Loads& loads, bool left, const ros::Time& stamp) {
-  const double side = left ? -1.0 : 1.0;
+// `right`: loads on the right wing.
+geometry_msgs::WrenchStamped wrench(const Loads& right, bool left, const ros::Time& stamp) {
+  const Loads loads = left ? mirrored(right) : right;
   geometry_msgs::WrenchStamped out;
   out.header.stamp = stamp;
   out.header.frame_id = left ? frames::kLeftWing : frames::kRightWing;
-  const Eigen::Vector3d f = loads.force(), m = loads.moment();
-  out.wrench.force = toVector3({f.x(), side * f.y(), f.z()});
-  out.wrench.torque = toVector3({side * m.x(), m.y(), side * m.z()});
+  out.wrench.force = toVector3(loads.force());
+  out.wrench.torque = toVector3(loads.moment());
   return out;
 }
 
@@ -76,7 +76,7 @@ StepIterations iterations(const CommittedStep& step, const ros::Time& stamp) {
   StepIterations out;
   out.header.stamp = stamp;
   out.step = step.step;
-  out.converged = step.converged;
+  out.retried = step.retried();
   out.prescribed = step.prescribed;
   out.fluid_evaluations = static_cast<std::uint32_t>(step.fluid_evaluations);
   out.added_mass_ratio = step.added_mass_ratio;
@@ -103,7 +103,7 @@ FlightState flightState(const CommittedStep& step, const ros::Time& stamp) {
   out.loads = toMessage(step.loads);
   for (int i = 0; i < 3; ++i) out.force[i] = step.force_I[i];
   out.sub_iterations = static_cast<std::uint32_t>(step.iterations.size());
-  out.converged = step.converged;
+  out.retried = step.retried();
   out.courant = step.fluid.courant;
   out.divergence = step.fluid.divergence;
   std::copy(step.wall_s.begin(), step.wall_s.end(), out.wall_s.begin());
@@ -185,7 +185,7 @@ std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
   if (!bare) out.push_back({topics::kLeftWrench, stamp, wrench(step.loads, true, stamp)});
   out.push_back({topics::kIterations, stamp, iterations(step, stamp)});
   if (growPath(step, stamp)) out.push_back({topics::kPath, stamp, path_, true});
-  if (step.step % diagnostics_stride_ == 0 || !step.converged) {
+  if (step.step % diagnostics_stride_ == 0 || step.retried()) {
     out.push_back({topics::kDiagnostics, stamp, diagnostics(step, stamp)});
   }
   addPictures(step, stamp, out);

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "monarch_flight/ros_io/conversions.h"
 
 namespace monarch_flight {
@@ -41,6 +44,21 @@ std::shared_ptr<const FlowField> fromMessage(const WholeFlow& flow) {
   return out;
 }
 
+namespace {
+
+template <class Numbers>
+bool allFinite(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](auto x) { return std::isfinite(x); });
+}
+
+bool finite(const WholeFlow& flow) {
+  return allFinite(flow.x) && allFinite(flow.y) && allFinite(flow.z) && allFinite(flow.velocity) &&
+         allFinite(flow.vorticity) && allFinite(flow.pressure) && allFinite(flow.q) &&
+         allFinite(flow.wing);
+}
+
+}  // namespace
+
 std::string problem(const WholeFlow& flow) {
   const auto cellsAlong = [](const std::vector<double>& faces) {
     return faces.empty() ? 0 : faces.size() - 1;
@@ -49,6 +67,7 @@ std::string problem(const WholeFlow& flow) {
   const bool fits = n > 0 && flow.velocity.size() == 3 * n && flow.vorticity.size() == 3 * n &&
                     flow.pressure.size() == n && flow.q.size() == n &&
                     flow.wing.size() % kFaceNumbers == 0;
+  if (fits && !finite(flow)) return "a flow that is not finite";
   return fits ? "" : "a flow whose arrays do not fit its " + std::to_string(n) + " cells";
 }
 

@@ -116,12 +116,12 @@ void readTime(Section section, double frequency, Case& c) {
   // t = t_start + step * dt keeps six digits of dt; 2^32 steps from 0 do.
   const double latest = std::max(std::abs(c.time.t_start), std::abs(c.time.time(c.time.steps)));
   if (latest * std::numeric_limits<double>::epsilon() <= kRounding * c.time.dt) return;
-  section.fault("t_start", " = " + exactText(c.time.t_start) + " s: the run reaches to " +
-                               exactText(latest) + " s, where a step of " + exactText(c.time.dt) +
-                               " s is lost in rounding: must end before " +
-                               exactText(kRounding * c.time.dt /
-                                         std::numeric_limits<double>::epsilon()) +
-                               " s; start earlier or take longer steps");
+  section.fault("t_start",
+                " = " + exactText(c.time.t_start) + " s: the run reaches to " + exactText(latest) +
+                    " s, where a step of " + exactText(c.time.dt) +
+                    " s is lost in rounding: must end before " +
+                    exactText(kRounding * c.time.dt / std::numeric_limits<double>::epsilon()) +
+                    " s; start earlier or take longer steps");
 }
 
 void readCoupling(Section section, double mean_chord, Case& c, Faults& faults) {

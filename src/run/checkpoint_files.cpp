@@ -36,12 +36,6 @@ std::string digest(const std::vector<char>& bytes) {
   return sha256Hex({bytes.data(), bytes.size()});
 }
 
-void writeWhole(const std::string& path, std::string_view bytes) {
-  OutputFile file(path);
-  file.write(bytes);
-  file.finish();
-}
-
 // Runs `action` of the file system; what it refuses is an OutputError.
 void changing(const std::string& path, const std::function<void(std::error_code&)>& action) {
   std::error_code error;

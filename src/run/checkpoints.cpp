@@ -57,8 +57,8 @@ std::string Checkpoints::problemOf(std::uint32_t step, const Case& c, const std:
     const CheckpointFacts facts = files_.verify(step);
     if (facts.ranks != 0 && facts.ranks != facts_.ranks)
       return where + "was made with the flow on " + std::to_string(facts.ranks) +
-             " process(es), not on " + std::to_string(facts_.ranks) + "; give ranks:=" +
-             std::to_string(facts.ranks);
+             " process(es), not on " + std::to_string(facts_.ranks) +
+             "; give ranks:=" + std::to_string(facts.ranks);
     coordinator_ = files_.read(step, kCoordinator);
     reader_.emplace(coordinator_, files_.path(step) + "/coordinator.h5");
     std::string before;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "monarch_flight/math/seconds_since.h"
 namespace monarch_flight {
 
 Reply KeptParticipant::exchange(const Request& request) {
@@ -28,8 +29,7 @@ Reply KeptParticipant::exchange(const Request& request) {
     reply.error = part + ", step " + std::to_string(key.step) + ", " + phaseName(key.phase) +
                   ": " + e.what();
   }
-  reply.wall_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  reply.wall_s = secondsSince(begin);
   return reply;
 }
 

@@ -122,6 +122,12 @@ OutputMark OutputFile::mark() {
   return {bytes_, hash_.hex()};
 }
 
+void writeWhole(const std::string& path, std::string_view bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.finish();
+}
+
 void OutputFile::fail(const char* what, int error) {
   failure_ = active(path_) + " " + what + " (" + std::strerror(error) + "): " + remedy(error);
   if (descriptor_ >= 0) ::close(descriptor_);

@@ -17,7 +17,7 @@ namespace {
 // The air flows faster round the wing's edges than the tip moves: largest Courant number of a
 // flight over that of the tip's speed, measured (docs/performance.md).
 constexpr double kFlowByTip = 1.6;
-constexpr double kMostMissed = 0.1;  // of the wing's area, by its staircase
+constexpr double kMostMissed = 0.1;        // of the wing's area, by its staircase
 constexpr double kStartByExchange = 10.0;  // waits of the nodes for START over those for an answer
 // Evaluations of the air in a step with free coordinates (docs/coupling.md, `added_mass`).
 constexpr double kEvaluationsFree = 2.1;
@@ -129,9 +129,7 @@ std::string timeText(double seconds) {
 
 }  // namespace
 
-double RunPlan::watchdogNeeded() const {
-  return std::max(setup_s / kStartByExchange, exchange_s);
-}
+double RunPlan::watchdogNeeded() const { return std::max(setup_s / kStartByExchange, exchange_s); }
 
 RunPlan planRun(const Case& c, int ranks, int here) {
   const Grid grid = makeGrid(c.insect.planform, c.grid);
@@ -206,7 +204,8 @@ std::string describe(const RunPlan& p) {
   text << '\n'
        << "time: set-up " << timeText(p.setup_s) << ", " << p.steps << " steps of "
        << timeText(p.step_s) << " (" << p.evaluations << " evaluations of the air, " << p.ranks
-       << (p.ranks == 1 ? " process): " : " processes): ") << timeText(p.run_s()) << "; nodes need watchdog_s >= " << p.watchdogNeeded() << "\n";
+       << (p.ranks == 1 ? " process): " : " processes): ") << timeText(p.run_s())
+       << "; nodes need watchdog_s >= " << p.watchdogNeeded() << "\n";
   return text.str();
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "monarch_flight/math/seconds_since.h"
+
 namespace monarch_flight {
 namespace {
 
@@ -58,8 +60,7 @@ void ProgressSink::onEnd(const std::string&) {
 
 std::string ProgressSink::line(const CommittedStep& step) const {
   const double done = static_cast<double>(step.step) / std::max(time_.steps, 1u);
-  const double elapsed =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  const double elapsed = secondsSince(begin_);
   std::string text = "[";
   for (int i = 0; i < kBar; ++i) text += i < done * kBar ? '#' : '.';
   char rest[160];

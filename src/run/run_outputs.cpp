@@ -5,12 +5,6 @@
 namespace monarch_flight {
 namespace {
 
-void writeWhole(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.finish();
-}
-
 // Runs `action`; adds what it throws to `failure`.
 template <class Action>
 void collect(std::string& failure, Action action) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "monarch_flight/math/seconds_since.h"
+
 namespace monarch_flight {
 namespace {
 
@@ -69,13 +71,12 @@ void Summary::add(const CommittedStep& step) {
     return;
   }
   steps_ = step.step;
-  unconverged_ += step.converged ? 0 : 1;
   const double iterations = static_cast<double>(step.iterations.size());
   all_.add(iterations);
   if (!step.prescribed) {
     solved_.add(iterations);
     evaluations_.add(step.fluid_evaluations);
-    retried_ += step.iterations.back().attempt > 1 ? 1 : 0;
+    retried_ += step.retried() ? 1 : 0;
     addWork(step);
   }
   ratio_.add(step.added_mass_ratio);
@@ -120,8 +121,7 @@ double Summary::climbAngleDegrees() const {
 const Range& Summary::subIterations() const { return solved_.count ? solved_ : all_; }
 
 double Summary::wallSeconds() const {
-  return wall_before_ +
-         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  return wall_before_ + secondsSince(begin_);
 }
 
 void Summary::memory(StateVisitor& state) {
@@ -138,7 +138,6 @@ void Summary::memory(StateVisitor& state) {
   range("fluid_evaluations", evaluations_);
   range("added_mass_ratio", ratio_);
   state("steps", steps_);
-  state("steps_unconverged", unconverged_);
   state("steps_retried", retried_);
   state("whole_flaps", whole_flaps_);
   state("t_first", t_first_);
@@ -185,7 +184,6 @@ std::string Summary::json(const std::string& failure) const {
   j["version"] = MONARCH_FLIGHT_VERSION;
   j["steps"] = steps_;
   j["flaps"] = flaps();
-  j["unconverged_steps"] = unconverged_;
   j["sub_iterations"] = {{"mean", subIterations().mean()}, {"max", std::lround(subIterations().max)}};
   j["retried_steps"] = retried_;
   j["fluid_evaluations"] = {{"mean", evaluations_.mean()}, {"max", std::lround(evaluations_.max)}};

@@ -45,23 +45,17 @@ Eigen::MatrixXd readJacobian(const std::string& path, const Case& c, const TrimO
   return overHorizon(J, states, targets, options.horizon);
 }
 
-void write(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.finish();
-}
-
 void writeResult(const std::string& path, const FlapMap& map, const TrimOptions& options,
                  const TrimResult& result, int flaps) {
   const double per_flap = map.baseCase().time.stepsPerFlap();
   const int run_in =
       map.runIn() > 0 ? static_cast<int>(std::lround(map.runIn() * per_flap)) : kShortRunIn;
-  write(path, trimmedCase(map, options, result, run_in, flaps));
+  writeWhole(path, trimmedCase(map, options, result, run_in, flaps));
   const Eigen::MatrixXd& J = result.newton.jacobian;
   std::ostringstream text;
   text.precision(17);
   text << J.rows() << ' ' << J.cols() << '\n' << J << '\n';
-  write(path + ".jacobian", text.str());
+  writeWhole(path + ".jacobian", text.str());
 }
 
 void printFlight(std::ostream& out, const Flight& flight) {

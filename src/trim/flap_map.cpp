@@ -47,16 +47,18 @@ FlapMap::FlapMap(const Case& c, const std::string& config_dir,
   std::vector<std::string> faults;
   const CaseEdit edit(c.resolved_yaml);
   if (edit.at({"motion", "type"}) != "fourier" || !(c.time.period > 0.0)) {
-    faults.push_back("motion: must be a Fourier series with motion/frequency > 0 to be trimmed; "
-                     "give motion/type fourier and a frequency");
+    faults.push_back(
+        "motion: must be a Fourier series with motion/frequency > 0 to be trimmed; "
+        "give motion/type fourier and a frequency");
   }
   const double steps = std::round(c.time.stepsPerFlap());
   if (c.time.period > 0.0 && std::abs(c.time.stepsPerFlap() - steps) > 1e-6) {
     faults.push_back("time: a flap must be a whole number of steps; give time/steps_per_flap");
   }
   if (c.free.count() == 0) {
-    faults.push_back("free: nothing is free, so there is nothing to trim; free x, z, pitch or "
-                     "wing_pitch");
+    faults.push_back(
+        "free: nothing is free, so there is nothing to trim; free x, z, pitch or "
+        "wing_pitch");
   }
   if (run_in < 0) {
     faults.push_back("run_in = " + std::to_string(run_in) + ": must be >= 0 flaps; 1 is usual");
@@ -129,8 +131,8 @@ Flight FlapMap::fly(const TrimPoint& point, int flaps) const {
     return flyCase(c, recorder);
   }
   const int steps = run_in_ * static_cast<int>(per_flap_);
-  const Case c = caseFromText(caseText(point, steps, flaps), base_.name + " with run-in", {},
-                              config_dir_);
+  const Case c =
+      caseFromText(caseText(point, steps, flaps), base_.name + " with run-in", {}, config_dir_);
   FlapRecorder recorder(c.time, static_cast<std::uint32_t>(steps), kHarmonics);
   return flyCase(c, recorder);
 }

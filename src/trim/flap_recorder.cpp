@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "monarch_flight/math/seconds_since.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/trim/periodic_shape.h"
 
@@ -90,8 +91,7 @@ Flight flyCase(Case c, FlapRecorder& recorder) {
   flight.complete = result.complete;
   flight.failure = result.failure;
   flight.flaps = recorder.flaps();
-  flight.wall_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  flight.wall_s = secondsSince(begin);
   return flight;
 }
 

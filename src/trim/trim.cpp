@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/math/seconds_since.h"
 
 namespace monarch_flight {
 namespace {
@@ -220,7 +221,7 @@ TrimResult trim(const Case& c, const std::string& config_dir, const TrimOptions&
     result.point = search.point(r.unknowns);
     result.floquet = floquet(r.jacobian.topRows(static_cast<Index>(map.active().size())));
     result.flaps_flown = search.flown();
-    result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.wall_s = secondsSince(begin);
   };
   const auto accepted = [&](const NewtonResult& r) {
     result.flaps = search.accept(r.unknowns);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "monarch_flight/ros_io/frames.h"
 #include "monarch_flight/viz/colours.h"
+#include "monarch_flight/viz/frames.h"
 
 namespace monarch_flight {
 namespace {

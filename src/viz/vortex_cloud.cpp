@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "monarch_flight/ros_io/frames.h"
 #include "monarch_flight/viz/colours.h"
+#include "monarch_flight/viz/frames.h"
 
 namespace monarch_flight {
 namespace {

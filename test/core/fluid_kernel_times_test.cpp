@@ -1,11 +1,14 @@
 // The times by kernel that the flow solver reports.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <numeric>
 
 #include "fluid/flow.h"
 #include "monarch_flight/math/rotation.h"
+#include "monarch_flight/math/seconds_since.h"
 
 namespace monarch_flight {
 namespace {
@@ -26,17 +29,20 @@ TEST(KernelTimes, AddUpToTheTimeOfTheSteps) {
   NavierStokes flow(makeGrid(Planform::ellipse(1.0, 2.0, 0.3), s), Air(), 1.0, 10.0);
   flow.start(flapping(0), 0.01);
   EXPECT_EQ(0.0, sum(flow.report().kernel_s));
-  const auto begin = std::chrono::steady_clock::now();
-  for (int n = 1; n <= 5; ++n) {
+  double seen =
+      0.0;  // share of the wall time, the best of some steps: others may take the processor
+  for (int n = 1; n <= 20; ++n) {
+    const double before = sum(flow.report().kernel_s);
+    const auto begin = std::chrono::steady_clock::now();
     flow.evaluate(flapping(0.01 * n));
     flow.commit();
+    const double wall = secondsSince(begin), told = sum(flow.report().kernel_s) - before;
+    EXPECT_LE(told, wall);
+    seen = std::max(seen, told / wall);
   }
-  const double wall =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const KernelTimes times = flow.report().kernel_s;
   for (std::size_t k = 0; k < kKernels; ++k) EXPECT_GT(times[k], 0.0) << kKernelNames[k];
-  EXPECT_LE(sum(times), wall);
-  EXPECT_GT(sum(times), 0.95 * wall);  // what the clock itself and the calls take is not seen
+  EXPECT_GT(seen, 0.95);  // what the clock itself and the calls take is not seen
   flow.start(flapping(0), 0.01);
   EXPECT_EQ(0.0, sum(flow.report().kernel_s));
 }
@@ -45,12 +51,11 @@ TEST(KernelTimes, ALapIsNotSeen) {
   KernelTimes times{};
   constexpr int kLaps = 100000;
   LapTimer timer(times);
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // of this process: others do not count
   for (int n = 0; n < kLaps; ++n) timer.lap(Kernel::kLoads);
-  const double wall =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double taken = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   // A step takes 12 laps and milliseconds: this bound is a thousandth of a step of 10 ms.
-  EXPECT_LT(wall / kLaps, 1e-5 / 12);
+  EXPECT_LT(taken / kLaps, 1e-5 / 12);
   EXPECT_GT(times[static_cast<std::size_t>(Kernel::kLoads)], 0.0);
 }
 

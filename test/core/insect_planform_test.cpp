@@ -139,10 +139,13 @@ TEST(Planform, FaultsAreNamed) {
   EXPECT_EQ(message([] { Planform::table({0, 1, 2}, {1, 0, 1}, {0, 0, 0}); }), "");  // pinched
   EXPECT_EQ(message([] { Planform::table({0, 1, 2, 3}, {0, 0, 1, 0}, {0, 0, 0, 0}); }), "");
   const std::vector<double> y{0, 0.5, 1}, x{1, 1, 1}, zero{0, 0, 0};
-  EXPECT_NE(message([&] { Planform::polynomial(y, {0.5, 0, -0.5}, {-0.5, 0, 0.5}, 1); })
-                .find("edges cross, by 1 m at y = 1 m"),
+  EXPECT_NE(message([&] {
+              Planform::polynomial(y, {0.5, 0, -0.5}, {-0.5, 0, 0.5}, 1);
+            }).find("edges cross, by 1 m at y = 1 m"),
             std::string::npos);
-  EXPECT_NE(message([&] { Planform::polynomial(y, x, {0, 0.6, 0}, 1); }).find("miss the stations"),
+  EXPECT_NE(message([&] {
+              Planform::polynomial(y, x, {0, 0.6, 0}, 1);
+            }).find("miss the stations"),
             std::string::npos);
   EXPECT_NE(message([&] { Planform::polynomial(y, x, zero, 3); }).find("from 1 to 2"),
             std::string::npos);

@@ -9,6 +9,7 @@
 #include "fluid/flow.h"
 #include "monarch_flight/fluid/flow_cost.h"
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/math/seconds_since.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/plan.h"
 
@@ -85,21 +86,23 @@ TEST(Plan, TheFlowStaysBelowTheCourantNumberExpected) {
 
 TEST(Plan, TimeIsThatOfARun) {
   Case c = tethered("preview");
-  const RunPlan plan = planRun(c, 1);
   const auto flow = makeFluid(c);
   WingMotion m;
   flow->start(m, c.time.dt);
-  double best = 1e9;
-  for (int n = 0; n < 6; ++n) {
+  RunPlan plan;
+  double ratio =
+      1e9;  // of plan and step or the other way round, the better of some tries: both are
+  for (int n = 0; n < 8 && ratio > 2.5;
+       ++n) {  // measured at different times, when others may have the processor
+    plan = planRun(c, 1);
     const auto begin = std::chrono::steady_clock::now();
     flow->evaluate(m);
     flow->commit();
-    best = std::min(
-        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    const double step = secondsSince(begin);
+    ratio = std::min(ratio, std::max(plan.step_s / step, step / plan.step_s));
   }
   EXPECT_EQ(1.0, plan.evaluations);
-  EXPECT_LT(plan.step_s, 2.5 * best);  // a shared machine: both are measured at different times
-  EXPECT_GT(plan.step_s, best / 2.5);
+  EXPECT_LT(ratio, 2.5);
   EXPECT_EQ(plan.setup_s + plan.steps * plan.step_s, plan.run_s());
 }
 
@@ -158,7 +161,7 @@ TEST(Plan, OnlyTheProcessesOfThisMachineCountForItsMemory) {
   EXPECT_GT(half.memory, 0.5 * all.memory);  // the checkpoint and the wing's matrix are here
   Case none = c;
   none.output.checkpoint_every = 0;
-  EXPECT_NEAR(all.memory - planRun(none, 8).memory, 216.0 * all.cells, 1.0);
+  EXPECT_NEAR(all.memory - planRun(none, 8).memory, 241.0 * all.cells, 1.0);
 }
 
 TEST(Plan, TooManyProcessesAreRefused) {

@@ -125,7 +125,8 @@ class Control(flying.FlightTest):
         self.assertGreaterEqual(feedback[0].time_left_s, 0)
         self.assertAlmostEqual(feedback[0].flap, feedback[0].step / 500, delta=1e-9)
         self.assertGreaterEqual(feedback[0].sub_iterations, 1)
-        self.assertTrue(fly(50).wait_for_result(flying_duration(30)))  # lies behind
+        # Lies behind. actionlib's Python client misses an answer that comes before it has noted its goal.
+        self.assertTrue(any(fly(50).wait_for_result(flying_duration(5)) for _ in range(6)))
         self.assertEqual(client.get_state(), GoalStatus.REJECTED)
         self.assertIn("from 61 to %d" % STEPS, client.get_goal_status_text())
         fly(0)
@@ -139,6 +140,7 @@ class Control(flying.FlightTest):
 
     def check_reset(self, listener):
         self.good("sub_iterate")  # in the middle of a step
+        threading.Event().wait(1.0)  # poses of the last step, of other nodes too, are still on their way
         del listener.steps[:], listener.clock[:], listener.stamps[:]
         self.assertEqual(self.good("reset"), "held behind step 0")
         self.wait_for(lambda: listener.steps and listener.clock and listener.stamps, 10, "level 0")

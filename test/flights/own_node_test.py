@@ -17,7 +17,7 @@ class OwnNode(flying.FlightTest):
             self.assertEqual(code, 0, output)
         first, second = (flying.summary(self.out(name)) for name in ("first", "second"))
         self.assertEqual(first["status"], "complete")
-        self.assertEqual((first["steps"], first["unconverged_steps"]), (50, 0))
+        self.assertEqual((first["steps"], first["retried_steps"]), (50, 0))
         self.assertEqual(first["state_sha256"], second["state_sha256"])
         self.assertEqual(first["ignored_messages"]["forged"], 0)
         # Its Jacobian is exact, so Newton's method needs few trials.

@@ -63,7 +63,7 @@ class SameState(flying.FlightTest):
             code, output = self.fly("case:=" + path, "flaps:=0.16", "out:=" + self.out(name), *keys, **environment)
             self.assertEqual(code, 0, output)
         first = flying.summary(self.out("process"))
-        self.assertEqual((first["steps"], first["unconverged_steps"]), (80, 0))
+        self.assertEqual((first["steps"], first["retried_steps"]), (80, 0))
         for name in ("nodes", "late"):
             other = flying.summary(self.out(name))
             self.assertEqual(other["state_sha256"], first["state_sha256"], name)
@@ -71,7 +71,7 @@ class SameState(flying.FlightTest):
 
     def check_summary(self, s):
         self.assertEqual((s["status"], s["failure"]), ("complete", ""))
-        self.assertEqual((s["steps"], s["flaps"], s["unconverged_steps"]), (STEPS, 1.0, 0))
+        self.assertEqual((s["steps"], s["flaps"], s["retried_steps"]), (STEPS, 1.0, 0))
         self.assertGreater(s["sub_iterations"]["mean"], 1)
         self.assertLessEqual(s["sub_iterations"]["mean"], s["sub_iterations"]["max"])
         self.assertEqual(set(s["wall_s"]), {"total", "fluid", "flight", "wing", "exchange", "coupling", "outputs"})

@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
     limitMemory(20L << 20);
     SharedFlow::serve(MPI_COMM_WORLD);
   } else {
-    const Grid grid = makeGrid(Planform::rectangle(1.0, 2.0, 0.5), GridSettings::preset("standard"));
+    const Grid grid =
+        makeGrid(Planform::rectangle(1.0, 2.0, 0.5), GridSettings::preset("standard"));
     SharedFlow flow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD);
     flow.start(WingMotion(), 0.01);
     flow.evaluate(WingMotion());

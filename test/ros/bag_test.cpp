@@ -12,7 +12,7 @@
 
 #include "monarch_flight/ros_io/conversions.h"
 #include "monarch_flight/ros_io/flight_messages.h"
-#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/frames.h"
 #include "ros/process.h"
 
 namespace monarch_flight {

@@ -9,7 +9,7 @@
 
 #include "monarch_flight/math/rotation.h"
 #include "monarch_flight/ros_io/flight_messages.h"
-#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/frames.h"
 
 namespace monarch_flight {
 namespace {
@@ -132,6 +132,15 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
   }
 }
 
+float anyFloat() {
+  while (true) {
+    const auto bits = static_cast<std::uint32_t>(generator());
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    if (std::isfinite(value)) return value;
+  }
+}
+
 FlowField smallFlow() {
   FlowField flow;
   flow.x = {0, 1, 2};
@@ -139,11 +148,11 @@ FlowField smallFlow() {
   flow.z = {-1, 0, 0.5, 7};
   for (int n = 0; n < 6; ++n) {
     for (int c = 0; c < 3; ++c) {
-      flow.velocity.push_back(float(anyNumber()));
-      flow.vorticity.push_back(float(anyNumber()));
+      flow.velocity.push_back(anyFloat());
+      flow.vorticity.push_back(anyFloat());
     }
-    flow.pressure.push_back(float(anyNumber()));
-    flow.q.push_back(float(anyNumber()));
+    flow.pressure.push_back(anyFloat());
+    flow.q.push_back(anyFloat());
   }
   flow.wing = {{1, 2, 3, 4, 5, 6, {7, 8}, {9, 10}}, {-1, -2, -3, -4, -5, -6, {-7, -8}, {-9, -10}}};
   return flow;
@@ -176,6 +185,15 @@ TEST(Conversions, AFlowThatDoesNotFitItsGridIsNamed) {
   flow.pressure.pop_back();
   reply.flow = std::make_shared<FlowField>(flow);
   EXPECT_EQ("a flow whose arrays do not fit its 6 cells", problem(toMessage(reply)));
+  flow = smallFlow();
+  flow.q[1] = std::numeric_limits<float>::quiet_NaN();
+  reply.flow = std::make_shared<FlowField>(flow);
+  EXPECT_EQ("a flow that is not finite", problem(toMessage(reply)));
+  reply.flow = std::make_shared<FlowField>(smallFlow());
+  ParticipantReply twice = toMessage(reply);
+  EXPECT_EQ("", problem(twice));
+  twice.flow.push_back(twice.flow.front());
+  EXPECT_EQ("2 flows, at most one fits", problem(twice));
 }
 
 TEST(Conversions, IterationRecordsCrossBitForBit) {

@@ -51,9 +51,8 @@ TEST(RunParameters, CommandLineAndServerMeanTheSame) {
 }
 
 TEST(RunParameters, EveryFaultIsNamedAtOnce) {
-  const std::string faults =
-      faultsOf({"flap:=3", "ranks:=two", "watchdog:=5", "nonsense", "case:=a", "case:=b",
-                "checkpoints:=/tmp", "flaps:="});
+  const std::string faults = faultsOf({"flap:=3", "ranks:=two", "watchdog:=5", "nonsense",
+                                       "case:=a", "case:=b", "checkpoints:=/tmp", "flaps:="});
   EXPECT_NE(std::string::npos, faults.find("flap: unknown parameter; known are case")) << faults;
   EXPECT_NE(std::string::npos, faults.find("ranks = two: must be a whole number"));
   EXPECT_NE(std::string::npos, faults.find("watchdog: unknown parameter"));
@@ -88,8 +87,8 @@ TEST(RunParameters, ListsAndPrivateParametersAreRefused) {
 /// 2,000 broken command lines: read, or refused with a message.
 TEST(RunParameters, BrokenCommandLinesAreReadOrRefused) {
   Mutation mutation(7);
-  const char* const good[] = {"case:=hinge",  "flaps:=0.1",    "steps_per_flap:=200", "ranks:=2",
-                              "plan:=true", "paused:=false", "fluid:=quasi_steady"};
+  const char* const good[] = {"case:=hinge", "flaps:=0.1",    "steps_per_flap:=200", "ranks:=2",
+                              "plan:=true",  "paused:=false", "fluid:=quasi_steady"};
   int refused = 0;
   for (int i = 0; i < 2000; ++i) {
     std::vector<std::string> arguments;

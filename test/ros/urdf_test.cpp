@@ -8,8 +8,8 @@
 #include <random>
 
 #include "monarch_flight/ros_io/flight_messages.h"
-#include "monarch_flight/ros_io/frames.h"
 #include "monarch_flight/ros_io/run_parameters.h"
+#include "monarch_flight/viz/frames.h"
 #include "monarch_flight/viz/mesh.h"
 #include "ros/process.h"
 

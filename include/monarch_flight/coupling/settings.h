@@ -52,9 +52,10 @@ struct CommittedStep {
   JointAngles angles;          ///< theta is interface.theta_R
   Loads loads;                 ///< right wing
   Eigen::Vector3d force_I = Eigen::Vector3d::Zero();  ///< both wings (bare wing: the one wing), NED [N]
-  bool converged = true;
   bool prescribed = false;     ///< one of the prescribed start steps (or nothing is free)
   std::vector<IterationRecord> iterations;
+  /// The first attempt at it failed (a step whose second one fails, too, ends the run).
+  bool retried() const { return !iterations.empty() && iterations.back().attempt > 1; }
   int fluid_evaluations = 0;   ///< full evaluations of the air, those for its operator included
   /// Spectral radius of M_s^-1 M_a over the free coordinates: inertia of the air over that of the
   /// insect; 0 where nothing is free.

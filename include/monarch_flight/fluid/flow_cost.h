@@ -11,8 +11,8 @@ struct FlowCost {
   double repeated = 0.0;  ///< another evaluation of the same step
 };
 
-/// Measured by a few steps on a coarse grid around this wing, a fraction of a second: at 9 cells to a
-/// chord or at as many more as resolve it, at most those of `settings`, the grid of the run.
+/// Measured by a few steps on a coarse grid around this wing, a fraction of a second: at 9 cells to
+/// a chord or at as many more as resolve it, at most those of `settings`, the grid of the run.
 FlowCost measureFlowCost(const Planform& planform, const GridSettings& settings);
 
 /// Bytes that the flow solver holds for a grid in `here` of its `processes`, those of one machine.

@@ -56,7 +56,8 @@ struct FluidReport {
 class FluidModel {
  public:
   virtual ~FluidModel() = default;
-  /// Starts from air at rest (or the uniform wind) with the wing in this motion at time level 0.
+  /// Starts from air at rest (or the uniform wind) with the wing in this motion at time level 0;
+  /// `dt` is the time step of all that follows [s].
   virtual void start(const WingMotion& motion, double dt) = 0;
   /// Loads at level n+1 if the wing moves to `next`. Throws NumericalError on a non-finite result.
   virtual Loads evaluate(const WingMotion& next) = 0;
@@ -64,9 +65,11 @@ class FluidModel {
   virtual Loads linearise(const WingMotion& next, LoadOperator& jacobian) = 0;
   /// Evaluations that the Jacobian costs on top of that; 0: as good as nothing.
   virtual int operatorCost() const = 0;
-  /// Makes the last evaluated step the committed state. Precondition: evaluate was called since.
+  /// Makes the last evaluated step the committed state. Throws std::logic_error when nothing was
+  /// evaluated since the last commit.
   virtual void commit() = 0;
-  /// Exact state as bytes and back; bitwise the same evaluations follow.
+  /// Exact state as bytes and back; bitwise the same evaluations follow. Throws
+  /// std::invalid_argument for the state of another wing, grid or number of processes.
   virtual std::vector<char> save() const = 0;
   virtual void restore(const std::vector<char>& bytes) = 0;
 
@@ -81,7 +84,7 @@ class FluidModel {
   virtual std::shared_ptr<const FlowField> flowField() const { return nullptr; }
 };
 
-/// Uniform air and gravity.
+/// Uniform air.
 struct Air {
   double rho = 1.225;                               ///< [kg/m^3]
   double mu = 1.8e-5;                               ///< dynamic viscosity [Pa s]

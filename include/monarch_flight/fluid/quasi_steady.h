@@ -10,6 +10,8 @@ namespace monarch_flight {
 enum class BladeElementVariant { kSaneDickinson, kWhitneyWood };
 
 /// Blade-element model with added mass, rotational circulation and damping (docs/quasi_steady.md).
+/// Its start, evaluate and linearise throw NumericalError when the loads are not finite, evaluate
+/// before start std::logic_error.
 std::unique_ptr<FluidModel> makeQuasiSteady(const Planform& planform, const Air& air,
                                             BladeElementVariant variant);
 

@@ -6,11 +6,12 @@
 
 namespace monarch_flight {
 
+/// In the unit of its coefficients, rad for angles and m for sway:
 /// a0 + sum over n = 1, 2, ... of an[n-1] cos(n w t) + bn[n-1] sin(n w t), w = multiple * 2 pi f.
 struct FourierSeries {
-  double a0 = 0.0;         ///< mean [rad]
-  std::vector<double> an;  ///< cosine coefficients [rad]
-  std::vector<double> bn;  ///< sine coefficients [rad]
+  double a0 = 0.0;         ///< mean
+  std::vector<double> an;  ///< cosine coefficients
+  std::vector<double> bn;  ///< sine coefficients
   int multiple = 1;        ///< the series runs at this multiple of the flapping frequency
   bool constant() const { return an.empty() && bn.empty(); }
   /// Value with exact first and second derivatives; `frequency` in Hz, t in s. Units are the
@@ -22,7 +23,7 @@ struct FourierSeries {
 /// around that a periodic sway.
 struct FourierMotionSettings {
   double frequency = 0.0;  ///< flapping frequency [Hz]; 0 only with constant angles
-  FourierSeries phi, psi, theta, theta_A, pitch;
+  FourierSeries phi, psi, theta, theta_A, pitch;       ///< [rad]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< at t = 0, F_I (NED) [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< F_I (NED) [m/s]
   FourierSeries sway_x, sway_z;  ///< added to the position along x and z of F_I, coefficients [m]

@@ -12,10 +12,12 @@ class Planform {
  public:
   /// `leading(y) >= trailing(y)` for y in [y_root, y_tip]; `breaks` are interior stations where the
   /// edges are not smooth (quadrature is split there). Throws std::invalid_argument naming the fault
-  /// (zero span, crossed edges, zero area).
+  /// (zero span, crossed edges, zero area, a gap without a chord between root and tip).
   Planform(std::function<double(double)> leading, std::function<double(double)> trailing,
            double y_root, double y_tip, std::vector<double> breaks = {});
 
+  // These throw std::invalid_argument for lengths that are not > 0, stations that do not increase,
+  // are too few or unequally many, and for whatever the constructor refuses.
   /// Rectangle of chord c, span b, hinge at `hinge` chords behind the leading edge, root edge at y = y_root.
   static Planform rectangle(double chord, double span, double hinge, double y_root = 0.0);
   /// Ellipse with full axes `chord` (x) and `span` (y), its root end at y = y_root, hinge as above.
@@ -24,6 +26,8 @@ class Planform {
   static Planform table(const std::vector<double>& y, const std::vector<double>& leading,
                         const std::vector<double>& trailing);
   /// Least-squares polynomials (default 6th order) through the stations, clamped so that chord >= 0.
+  /// Refused, too: an order above 2 sqrt(stations), edges that cross by more than 0.05 mean chords
+  /// or miss the stations by more than 0.1 (rms).
   static Planform polynomial(const std::vector<double>& y, const std::vector<double>& leading,
                              const std::vector<double>& trailing, int order = 6);
 

@@ -58,4 +58,7 @@ class OutputFile {
   Sha256 hash_;
 };
 
+/// A whole file at once. Throws OutputError.
+void writeWhole(const std::string& path, std::string_view bytes);
+
 }  // namespace monarch_flight

@@ -15,17 +15,18 @@ struct RunPlan {
   double stokes_layer = 0.0;    ///< sqrt(2 nu / omega) of the flapping; 0 without a period [m]
   double cells_in_layer = 0.0;  ///< that it holds, counted from the wing
   double reynolds = 0.0;        ///< of the wing's fastest point and the mean chord
-  double courant_tip = 0.0, courant_body = 0.0;  ///< peak speeds of outline and root x dt / in_plane
+  double courant_tip = 0.0,
+         courant_body = 0.0;  ///< peak speeds of outline and root x dt / in_plane
   double courant_flow = 0.0;  ///< expected of the flow round the wing: what the solver watches
   double courant_limit = 0.0;
   double captured = 0.0;  ///< area of the wing's staircase over that of its outline
   double memory = 0.0, memory_left = 0.0;  ///< needed; available on this machine [bytes]
-  int ranks = 1;       ///< processes of the flow
-  int ranks_here = 1;  ///< of them on this machine
+  int ranks = 1;                           ///< processes of the flow
+  int ranks_here = 1;                      ///< of them on this machine
   long steps = 0;
   double evaluations = 0.0;            ///< of the air in a step, expected
   double setup_s = 0.0, step_s = 0.0;  ///< expected wall time [s]
-  double exchange_s = 0.0;  ///< the longest answer to a node that waits, START apart [s]
+  double exchange_s = 0.0;             ///< the longest answer to a node that waits, START apart [s]
   double run_s() const { return setup_s + steps * step_s; }
   /// Least watchdog_s with which the nodes wait long enough for these times [s].
   double watchdogNeeded() const;

@@ -47,7 +47,7 @@ class Summary {
   std::string name_, case_sha256_;
   TimeGrid time_;
   std::chrono::steady_clock::time_point begin_;
-  std::uint32_t steps_ = 0, unconverged_ = 0;
+  std::uint32_t steps_ = 0;
   std::uint64_t whole_flaps_ = 0;
   double t_first_ = 0.0, t_last_ = 0.0;  // of the mean velocity
   Eigen::Vector3d x_first_ = Eigen::Vector3d::Zero(), x_last_ = Eigen::Vector3d::Zero();

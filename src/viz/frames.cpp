@@ -1,4 +1,4 @@
-#include "monarch_flight/ros_io/frames.h"
+#include "monarch_flight/viz/frames.h"
 
 #include "monarch_flight/math/rotation.h"
 
