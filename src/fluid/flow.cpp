@@ -195,7 +195,7 @@ void NavierStokes::commit() {
   prepared_ = evaluated_ = false;
   step_ = {};
   if (steps_ % kDivergenceEvery == 1)
-    report_.divergence = slab_.max(relativeDivergence(grid_, layout_, vn_));
+    report_.divergence = relativeDivergence(grid_, layout_, slab_, vn_);
   timer.lap(Kernel::kProjection);
 }
 

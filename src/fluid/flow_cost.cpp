@@ -24,17 +24,17 @@ constexpr double kSetupRate = 2.5e10;        // n^3 a second: assembly and inver
 constexpr double kCapacitanceRate = 1.0e10;  // bytes a second of the inverse, half of it read
 constexpr double kChainShare = 0.20;         // of a step's time in chains along z
 
-/// As coarse as this wing lets it be.
+/// As coarse as this wing lets it be, at most as fine as the case's own in the wing's plane.
 Grid coarseGrid(const Planform& planform, const GridSettings& settings) {
   GridSettings coarse = GridSettings::preset("preview");
-  for (double cells = kCellsPerChord; cells < settings.cells_per_chord; cells *= kFiner) {
-    coarse.cells_per_chord = cells;
+  for (double cells = kCellsPerChord;; cells *= kFiner) {
+    coarse.cells_per_chord = std::min(cells, settings.cells_per_chord);
     try {
       return makeGrid(planform, coarse);
     } catch (const InputError&) {  // a short or a jagged wing needs more cells
+      if (cells >= settings.cells_per_chord) throw;
     }
   }
-  return makeGrid(planform, settings);
 }
 
 }  // namespace

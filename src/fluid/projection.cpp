@@ -151,10 +151,15 @@ void fillWing(const Grid& grid, const Layout& l, const WallVelocity& wall, Veloc
 }
 
 double relativeDivergence(const Grid& grid, const Layout& l, const Velocity& v) {
+  return relativeDivergence(grid, l, Slab(l.nz), v);
+}
+
+double relativeDivergence(const Grid& grid, const Layout& l, const Slab& slab, const Velocity& v) {
   double speed = 0, worst = 0;
   for (int c = 0; c < 3; ++c) {
     for (double q : v.c[c]) speed = std::max(speed, std::abs(q));
   }
+  speed = slab.max(speed);
   if (speed == 0) return 0;
   for (int k = l.k0; k < l.k1; ++k) {
     for (int j = 0; j < l.ny; ++j) {
@@ -168,7 +173,7 @@ double relativeDivergence(const Grid& grid, const Layout& l, const Velocity& v) 
       }
     }
   }
-  return worst / speed;
+  return slab.max(worst) / speed;
 }
 
 }  // namespace monarch_flight

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "fluid/field.h"
+#include "fluid/slab.h"
 
 namespace monarch_flight {
 
@@ -28,5 +29,7 @@ Eigen::Vector3d pointOf(const Grid& grid, int component, int i, int j, int k);
 void fillWing(const Grid& grid, const Layout& l, const WallVelocity& wall, Velocity& v);
 /// Largest |net outflow| of a cell divided by its largest face flux scale; 0 for air at rest.
 double relativeDivergence(const Grid& grid, const Layout& l, const Velocity& v);
+/// The same over the slabs of all processes.
+double relativeDivergence(const Grid& grid, const Layout& l, const Slab& slab, const Velocity& v);
 
 }  // namespace monarch_flight

@@ -20,9 +20,12 @@ SharedSymmetric::SharedSymmetric(Eigen::MatrixXd matrix, const Slab& slab, int k
     return;
   }
   split_ = static_cast<int>(std::lround(n_ * (1 - std::sqrt(0.5))));  // halves of the triangle
-  const int rest = n_ - split_;
-  held_ = part_ == Part::kBelow ? matrix.block(0, 0, n_, split_)
-                                : matrix.block(split_, split_, rest, rest);
+  const int rest = n_ - split_, kept = part_ == Part::kBelow ? split_ : rest;
+  double* columns = matrix.data();  // what is kept moves to the front, without a copy of the matrix
+  if (part_ == Part::kAbove)
+    std::copy(columns + static_cast<std::ptrdiff_t>(split_) * n_, columns + matrix.size(), columns);
+  matrix.conservativeResize(n_, kept);
+  held_ = std::move(matrix);
   partner_.setZero(n_);
 }
 
@@ -37,7 +40,7 @@ void SharedSymmetric::multiply(const double* x, double* y) const {
   } else {
     const int rest = n_ - split_;
     std::fill_n(y, split_, 0.0);
-    cblas_dsymv(CblasColMajor, CblasLower, rest, 1.0, held_.data(), rest, x + split_, 1, 0.0,
+    cblas_dsymv(CblasColMajor, CblasLower, rest, 1.0, held_.data() + split_, n_, x + split_, 1, 0.0,
                 y + split_, 1);
     slab_.exchangeBelow(y, partner_.data(), n_);
   }

@@ -24,7 +24,7 @@ class SharedSymmetric {
   Slab slab_{1};
   Part part_ = Part::kAll;
   int n_ = 0, split_ = 0;            ///< rows; rows of A
-  Eigen::MatrixXd held_;             ///< all; or A over B; or C
+  Eigen::MatrixXd held_;             ///< all; or A over B; or the columns of C, n rows each
   mutable Eigen::VectorXd partner_;  ///< what the other process adds
 };
 

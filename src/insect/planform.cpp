@@ -79,7 +79,7 @@ void requireOnePiece(const std::function<double(double)>& leading,
     for (int k = 0; k <= kSamples; ++k) {
       const double y = ends[i] + (ends[i + 1] - ends[i]) * k / kSamples;
       const bool wing = leading(y) - trailing(y) > 1e-12 * scale;
-      if (wing && begun && gap && last > gap_from) {
+      if (wing && begun && gap && last - gap_from > 1e-9 * (ends.back() - ends.front())) {
         std::ostringstream text;
         text << "no chord from y = " << gap_from << " m to y = " << last
              << " m: the wing must be one piece from root to tip; give these stations a chord";

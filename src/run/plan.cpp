@@ -102,7 +102,8 @@ void planTime(const Case& c, long unknowns, RunPlan& plan) {
   plan.step_s = share * (cost.first + (plan.evaluations - 1) * cost.repeated) +
                 plan.evaluations * capacitanceEvaluation(unknowns);
   // An answer with the load operator takes as many evaluations more as it has columns.
-  const int evaluations = prescribed ? 1 : 7;
+  const bool linearised = !prescribed && c.coupling.relaxation == Relaxation::kAddedMass;
+  const int evaluations = linearised ? 7 : 1;
   plan.exchange_s = share * (cost.first + (evaluations - 1) * cost.repeated) +
                     evaluations * capacitanceEvaluation(unknowns);
 }
