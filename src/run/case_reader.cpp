@@ -186,8 +186,12 @@ std::string Section::text(const std::string& key) {
 }
 
 std::string Section::name(const std::string& key) {
+  constexpr std::size_t kLongest = 200;  // it becomes part of the names of files
   const std::string value = text(key);
-  if (!std::regex_match(value, std::regex("([A-Za-z0-9][A-Za-z0-9_.-]*)?"))) {
+  if (value.size() > kLongest) {
+    fault(key, " has " + std::to_string(value.size()) + " characters: must be at most " +
+                   std::to_string(kLongest) + "; shorten it");
+  } else if (!std::regex_match(value, std::regex("([A-Za-z0-9][A-Za-z0-9_.-]*)?"))) {
     fault(key, " = '" + value + "': must consist of letters, digits, '_', '-' and '.'; rename it");
   }
   return value;

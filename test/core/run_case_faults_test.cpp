@@ -154,6 +154,8 @@ TEST_F(CaseTest, HugeRunsAreReadAtOnce) {
 TEST_F(CaseTest, NamesAndTimesThatWouldGoWrongLater) {
   expectHas(faultsWith("hinge", "name: whitney_wood_wing", "name: \"a<b\""),
             "insect/name = 'a<b': must consist of letters");
+  expectHas(faultsWith("hinge", "name: whitney_wood_wing", "name: " + std::string(400000, 'a')),
+            "insect/name has 400000 characters: must be at most 200");
   expectHas(faultsWith("plate_re100", "dt: 0.02", "t_start: 1e9\n  dt: 0.02"),
             "time/t_start = 1000000000 s: the run reaches to");
   EXPECT_EQ(faultsWith("plate_re100", "dt: 0.02", "t_start: 1e3\n  dt: 0.02"), "");
