@@ -87,16 +87,18 @@ std::string Coordinator::notConverged(const CommittedStep& step, const std::stri
 /// What the user may change, for the strategy in use.
 std::string Coordinator::advice(double ratio) const {
   std::ostringstream text;
-  const bool relaxed = settings_.relaxation == Relaxation::kConstant ||
-                       settings_.relaxation == Relaxation::kAitken;
+  const bool relaxed =
+      settings_.relaxation == Relaxation::kConstant || settings_.relaxation == Relaxation::kAitken;
   if (relaxed) {
     text << "set coupling/relaxation to added_mass, or lower coupling/omega_initial and "
             "coupling/omega_max (a constant factor converges below about "
          << 2.0 / (1.0 + ratio) << " at this ratio), ";
   }
-  if (settings_.relaxation == Relaxation::kIqnIls) text << "set coupling/relaxation to added_mass, ";
+  if (settings_.relaxation == Relaxation::kIqnIls)
+    text << "set coupling/relaxation to added_mass, ";
   if (settings_.relaxation == Relaxation::kAddedMass) text << "lower coupling/operator_every, ";
-  text << "shorten the time step, raise coupling/max_sub_iterations, or loosen the tolerance that is "
+  text << "shorten the time step, raise coupling/max_sub_iterations, or loosen the tolerance that "
+          "is "
           "not met";
   return text.str();
 }

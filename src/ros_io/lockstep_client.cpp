@@ -62,7 +62,8 @@ bool RosParticipant::ready() const { return connected() && replies_.getNumPublis
 
 void RosParticipant::connect() {
   greet();
-  const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(run_.limits.connect_s);
+  const ros::SteadyTime deadline =
+      ros::SteadyTime::now() + ros::WallDuration(run_.limits.connect_s);
   Renewal renewal;
   while (!ready()) {
     if (renewal.due()) {
@@ -152,7 +153,7 @@ void RosParticipant::await(ParticipantRequest& message, const ExchangeKey& key) 
   const ros::SteadyTime begin = ros::SteadyTime::now();
   const ros::SteadyTime deadline = begin + ros::WallDuration(limit);
   ros::WallDuration patience(limit / 8.0);  // then it is asked again: after 1/8, 1/4, 1/2
-  std::optional<ros::SteadyTime> stopped;  // when the interrupt was seen
+  std::optional<ros::SteadyTime> stopped;   // when the interrupt was seen
   while (true) {
     run_.queue.callAvailable(slice(deadline));
     if (reply_) return;

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "monarch_flight/math/seconds_since.h"
+
 namespace monarch_flight {
 
 Reply KeptParticipant::exchange(const Request& request) {
@@ -26,8 +27,8 @@ Reply KeptParticipant::exchange(const Request& request) {
       solver_->restore(key, reader);
     }
   } catch (const std::exception& e) {
-    reply.error = part + ", step " + std::to_string(key.step) + ", " + phaseName(key.phase) +
-                  ": " + e.what();
+    reply.error =
+        part + ", step " + std::to_string(key.step) + ", " + phaseName(key.phase) + ": " + e.what();
   }
   reply.wall_s = secondsSince(begin);
   return reply;

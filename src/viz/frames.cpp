@@ -5,6 +5,15 @@
 namespace monarch_flight {
 namespace {
 
+template <class Message>
+Message withComponents(const Eigen::Vector3d& v) {
+  Message out;
+  out.x = v.x();
+  out.y = v.y();
+  out.z = v.z();
+  return out;
+}
+
 geometry_msgs::TransformStamped transform(const char* parent, const char* child,
                                           const Eigen::Vector3d& origin, const Eigen::Matrix3d& R,
                                           const ros::Time& stamp) {
@@ -42,19 +51,11 @@ geometry_msgs::Quaternion toQuaternion(const Eigen::Matrix3d& R) {
 }
 
 geometry_msgs::Point toPoint(const Eigen::Vector3d& v) {
-  geometry_msgs::Point out;
-  out.x = v.x();
-  out.y = v.y();
-  out.z = v.z();
-  return out;
+  return withComponents<geometry_msgs::Point>(v);
 }
 
 geometry_msgs::Vector3 toVector3(const Eigen::Vector3d& v) {
-  geometry_msgs::Vector3 out;
-  out.x = v.x();
-  out.y = v.y();
-  out.z = v.z();
-  return out;
+  return withComponents<geometry_msgs::Vector3>(v);
 }
 
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const Insect& insect,

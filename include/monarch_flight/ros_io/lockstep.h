@@ -34,8 +34,8 @@ struct LockstepLimits {
 };
 
 /// Limits that follow from the watchdog of a case: START, CHECKPOINT and RESTORE may take ten times
-/// as long as an exchange; a participant bears the silence of two exchanges (START: two STARTs) with
-/// the other two and one more.
+/// as long as an exchange; a participant bears the silence of two exchanges (START: two STARTs)
+/// with the other two and one more.
 LockstepLimits limitsFor(double watchdog_s);
 
 /// Depth of the queues of the protocol: few messages are ever sent, many may arrive from strangers.

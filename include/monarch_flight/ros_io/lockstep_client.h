@@ -18,7 +18,7 @@ struct LockstepRun {
   LockstepLimits limits;
   const StopFlag* stop = nullptr;                   ///< ends every wait when it becomes true
   std::vector<const RosParticipant*> participants;  ///< registered by their constructors
-  ros::SteadyTime greeted;  ///< when all of them had the last sign of life
+  ros::SteadyTime greeted;                          ///< when all of them had the last sign of life
 };
 
 /// The coordinator's end: a solver in another node, as a Participant (fields: msg/*.msg).

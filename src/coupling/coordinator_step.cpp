@@ -1,0 +1,198 @@
+// One step of a coupled run: predict, exchange, compare, accelerate, commit.
+#include <algorithm>
+#include <limits>
+
+#include "monarch_flight/coupling/coordinator.h"
+#include "monarch_flight/coupling/interface_values.h"
+#include "monarch_flight/flight/multibody_dynamics.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr double kDivergence = 1e3;  // growth of the residual at which an attempt is given up
+
+bool due(std::uint32_t step, int every) {
+  return every > 0 && step % static_cast<std::uint32_t>(every) == 0;
+}
+
+}  // namespace
+
+CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
+  CommittedStep out;
+  out.step = step;
+  out.t = model_.time(step);
+  out.prescribed = static_cast<int>(step) <= settings_.prescribed_steps || model_.free.count() == 0;
+  before_.take([this](StateVisitor& state) { memory(state); });
+  step_model_.begin(committed_, step);
+
+  Evaluation last;
+  try {
+    if (out.prescribed) {
+      heed(control, out);
+      last = evaluate(step_model_.prescribed(), false, out);
+    } else {
+      solve(control, last, out);
+    }
+  } catch (const NumericalError& e) {
+    throw StepFailure(e.what());
+  }
+  commit(last, out);
+  return out;
+}
+
+void Coordinator::solve(RunControl& control, Evaluation& last, CommittedStep& out) {
+  std::string error;
+  if (attempt(*accelerator_, 1, control, last, out, error)) return;
+  accelerator_->forget();
+  cautious_->forget();
+  if (!attempt(*cautious_, 2, control, last, out, error)) {
+    throw NumericalError(notConverged(out, error));
+  }
+}
+
+/// Returns whether it converged; `error` says what a solver complained of. A lost participant ends
+/// the run (ExchangeError): asking again would not bring it back.
+bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, RunControl& control,
+                          Evaluation& last, CommittedStep& out, std::string& error) {
+  const std::size_t first = out.iterations.size();
+  bool converged = false;
+  try {
+    converged = converge(accelerator, number == 1 ? predictedIncrements() : history_[0], control,
+                         last, out);
+  } catch (const NumericalError& e) {
+    error = e.what();
+    IterationRecord failed;  // its number is used up: a key never means two requests
+    failed.step = out.step;
+    failed.iteration = static_cast<std::uint32_t>(out.iterations.size());
+    failed.load_residual = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (step_model_.isFree()[i]) failed.residual[i] = failed.load_residual;
+    }
+    out.iterations.push_back(failed);
+  }
+  for (std::size_t i = first; i < out.iterations.size(); ++i) out.iterations[i].attempt = number;
+  return converged;
+}
+
+bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, RunControl& control,
+                           Evaluation& last, CommittedStep& out) {
+  accelerator.beginStep(out.step);
+  double first = 0.0;
+  std::optional<Loads> expected;
+  for (int k = 0; k < settings_.max_sub_iterations; ++k) {
+    heed(control, out);
+    last = evaluate(step_model_.interface(d), accelerator.wantsOperator(operator_cost_), out);
+    last.trial.d = d;
+    judge(expected, last, out);
+    IterationRecord& record = out.iterations.back();
+    const double largest = last.trial.residual.cwiseAbs().maxCoeff();
+    if (largest <= settings_.tolerance && record.load_residual <= settings_.load_tolerance) {
+      accelerator.endStep(last.trial);
+      return true;
+    }
+    if (k == 0) first = std::max(largest, 1.0 / kDivergence);
+    if (!(largest <= kDivergence * first)) return false;
+    const Proposal next = accelerator.advance(last.trial);
+    record.relaxation = next.relaxation;
+    d = next.d;
+    expected = next.loads ? next.loads : last.trial.loads;
+    if (!d.allFinite()) return false;
+  }
+  return false;
+}
+
+/// The residual of a sub-iteration, into its record too. The first one has no loads to compare
+/// with.
+void Coordinator::judge(const std::optional<Loads>& expected, Evaluation& evaluation,
+                        CommittedStep& out) {
+  Trial& trial = evaluation.trial;
+  trial.residual = step_model_.increments(evaluation.answer) - trial.d;
+  IterationRecord& record = out.iterations.back();
+  std::copy_n(trial.residual.data(), 4, record.residual.begin());
+  record.load_residual =
+      expected ? std::max(loadChange(trial.loads, *expected), imbalance(trial.residual, trial.d))
+               : 1.0;
+}
+
+Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, bool want_operator,
+                                              CommittedStep& out) {
+  Evaluation evaluation;
+  Request& request = evaluation.request;
+  request.key = keyOf(out.step, static_cast<std::uint32_t>(out.iterations.size()), Phase::kIterate);
+  request.t = out.t;
+  request.interface = guess;
+
+  Request to_fluid = request;
+  to_fluid.want_operator = want_operator;
+  const Reply air = ask(Role::kFluid, to_fluid, out);
+  if (want_operator && !air.jacobian) {
+    throw ExchangeError(
+        "the fluid did not answer with its load operator, which coupling/relaxation = added_mass "
+        "needs: let it answer, or take iqn_ils");
+  }
+  out.fluid_evaluations += 1 + (want_operator ? operator_cost_ : 0);
+  evaluation.trial.jacobian = air.jacobian;
+  Request with_loads = request;
+  with_loads.loads = evaluation.trial.loads = air.loads;
+  const Reply body = ask(Role::kFlight, with_loads, out);
+  with_loads.interface.body = body.interface.body;
+  const Reply wing = ask(Role::kWing, with_loads, out);
+  evaluation.answer = {body.interface.body, wing.interface.theta_R};
+
+  IterationRecord record;
+  record.step = out.step;
+  record.iteration = request.key.iteration;
+  record.fluid_wall_s = air.wall_s;
+  out.iterations.push_back(record);
+  return evaluation;
+}
+
+void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
+  // 5. commit: what the fluid was last evaluated for, on all sides
+  Request request = last.request;
+  request.key.phase = Phase::kCommit;
+  const bool surface = due(out.step, model_.surface_every);
+  const bool vortices = due(out.step, model_.vortices_every);
+  for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
+    request.want_fields = role == Role::kFluid && (surface || vortices);
+    request.want_flow = role == Role::kFluid && due(out.step, model_.fields_every);
+    Reply reply = ask(role, request, out);
+    if (role != Role::kFluid) continue;
+    out.fluid = reply.report;
+    if (surface) out.surface = std::move(reply.surface);
+    out.flow = std::move(reply.flow);
+    if (vortices) out.vortices = std::move(reply.vortices);
+  }
+  out.interface = request.interface;
+  finish(last.trial.loads, out);
+  balance(last, out);
+}
+
+void Coordinator::balance(const Evaluation& last, CommittedStep& out) const {
+  const Interface& guess = last.request.interface;
+  const InterfacePower power = balance_.power(out.t, guess, last.answer, last.trial.loads);
+  out.work_fluid = power.fluid * model_.newmark.dt;
+  out.work_structure = power.structure * model_.newmark.dt;
+  out.added_mass_ratio = balance_.addedMassRatio(out.t, guess, added_mass_);
+}
+
+void Coordinator::finish(const Loads& loads, CommittedStep& out) {
+  for (const Participant* participant : participants_) out.ignored += participant->ignored();
+  out.loads = loads;
+  out.angles = model_.angles(out.t, out.interface.theta_R);
+  const double beta = model_.insect.beta;
+  Eigen::Vector3d force_B = wingAttitude(beta, out.angles) * loads.force();
+  if (!model_.insect.bare_wing) {
+    force_B += leftWingAttitude(beta, out.angles) * mirrored(loads).force();
+  }
+  out.force_I = out.interface.body.R_IB * force_B;
+
+  committed_ = out.interface;
+  history_[2] = history_[1];
+  history_[1] = history_[0];
+  history_[0] = step_model_.increments(committed_);
+  levels_ = std::min(levels_ + 1, 3);
+  updateScales(loads);
+}
+
+}  // namespace monarch_flight
