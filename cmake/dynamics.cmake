@@ -5,7 +5,6 @@ file(GLOB dynamics_sources CONFIGURE_DEPENDS bench/dynamics/*.cpp bench/verify/r
 if(NOT Simbody_FOUND)
   list(FILTER dynamics_sources EXCLUDE REGEX "simbody")
 endif()
-#catkin_lint: ignore_once missing_install_target
 add_executable(verify_dynamics EXCLUDE_FROM_ALL ${dynamics_sources})
 target_include_directories(verify_dynamics PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR}/bench)
 target_compile_definitions(verify_dynamics PRIVATE CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config"

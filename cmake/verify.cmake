@@ -1,6 +1,5 @@
 # The verification of the flow solver: built only when asked for (`make verify`; scripts/verify does).
 file(GLOB verify_sources CONFIGURE_DEPENDS bench/verify/*.cpp)
-#catkin_lint: ignore_once missing_install_target
 add_executable(verify EXCLUDE_FROM_ALL ${verify_sources})
 target_include_directories(verify PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR}/bench)
 target_compile_definitions(verify PRIVATE CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config"
