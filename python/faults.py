@@ -36,8 +36,10 @@ class Flight:
         env = {k: v for k, v in os.environ.items() if not k.startswith("ROS_") and k != "DISPLAY"}
         env.update(MONARCH_AS_BUILT="1", ROS_LOG_DIR=folder + ".log", **environment)
         with open(self.log, "a") as log:
+            # Commands in a shell's background do not hear SIGINT, and hand that on.
             self.process = subprocess.Popen([FLY, *keys], stdout=log, stderr=log, env=env,
-                                            stdin=subprocess.DEVNULL, start_new_session=True)
+                                            stdin=subprocess.DEVNULL, start_new_session=True,
+                                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 
     def output(self):
         with open(self.log, errors="replace") as f:
@@ -248,8 +250,9 @@ class Bench:
             return result
         if code == 0:
             result["unharmed"] = summary(flight.folder)["state_sha256"] == expected
-            result["good"] = result["unharmed"]
-            result["verdict"] = "unharmed" if result["good"] else "a WRONG flight"
+            result["good"] = result["unharmed"] and fault.says is None
+            result["verdict"] = "a WRONG flight" if not result["unharmed"] else \
+                "unharmed" if result["good"] else "unharmed: the fault did NOT STRIKE"
             return result
         flown = flight.step()
         again = Flight(flight.folder, ("resume:=" + flight.folder, *ranks(fault.air)), {})
