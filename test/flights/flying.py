@@ -44,7 +44,9 @@ class FlightTest(unittest.TestCase):
         self.addCleanup(log.close)
         process = subprocess.Popen(
             [os.path.join(ROOT, "scripts", "fly"), *arguments], stdout=log, stderr=log,
-            stdin=subprocess.DEVNULL, env=self.environment(**environment))
+            stdin=subprocess.DEVNULL, env=self.environment(**environment),
+            # Tests in a shell's background do not hear SIGINT, and would hand that on.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         process.log = log
         self.addCleanup(self.end, process)
         return process
