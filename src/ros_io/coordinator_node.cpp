@@ -12,7 +12,6 @@ namespace monarch_flight {
 namespace {
 
 const ros::WallDuration kHeldWait(0.01);  // of a held run, for messages; then it looks for orders
-const ros::WallDuration kGreetings(0.2);  // between signs of life of a held run
 constexpr Role kRoles[] = {Role::kFluid, Role::kFlight, Role::kWing};
 
 std::uint64_t randomRunId() {
@@ -69,10 +68,7 @@ int CoordinatorNode::fly() {
 void CoordinatorNode::keepAlive() {
   run_.queue.callAvailable(kHeldWait);
   participants_[0]->requireEveryone(" while the run is held");
-  const ros::WallTime now = ros::WallTime::now();
-  if (now < greeted_ + kGreetings) return;
-  for (const auto& participant : participants_) participant->greet();
-  greeted_ = now;
+  participants_[0]->greetEveryone();
 }
 
 void CoordinatorNode::dismiss() noexcept {

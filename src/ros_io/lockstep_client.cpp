@@ -13,6 +13,12 @@ namespace {
 const ros::WallDuration kSlice(0.1);
 // ABORT is a courtesy: a node that computes, hangs or is gone is not waited for any longer.
 constexpr double kAbortLimit = 2.0;
+const ros::WallDuration kGreetings(0.2);  // between two signs of life
+
+/// What a solver does once and takes the longer the larger the flow is. All others wait meanwhile.
+bool growsWithTheFlow(Phase phase) {
+  return phase == Phase::kStart || phase == Phase::kCheckpoint || phase == Phase::kRestore;
+}
 
 ros::WallDuration slice(const ros::SteadyTime& deadline) {
   const ros::WallDuration left = deadline - ros::SteadyTime::now();
@@ -57,12 +63,11 @@ bool RosParticipant::ready() const { return connected() && replies_.getNumPublis
 void RosParticipant::connect() {
   greet();
   const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(run_.limits.connect_s);
-  ros::SteadyTime renewal = ros::SteadyTime::now() + kRenewal;
+  Renewal renewal;
   while (!ready()) {
-    if (ros::SteadyTime::now() >= renewal) {
+    if (renewal.due()) {
       if (!answer_) seekHello();
       if (replies_.getNumPublishers() == 0) seekReplies();
-      renewal = ros::SteadyTime::now() + kRenewal;
     }
     run_.queue.callAvailable(slice(deadline));
     if (answer_ && !answer_->refusal.empty()) {
@@ -102,9 +107,16 @@ void RosParticipant::requireEveryone(const std::string& where) const {
   }
 }
 
-void RosParticipant::greet() {
+void RosParticipant::greet() const {
   Hello hello = makeHello(identity_, run_.id);
   hello_out_.publish(hello);
+}
+
+void RosParticipant::greetEveryone() const {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (now < run_.greeted + kGreetings) return;
+  for (const RosParticipant* one : run_.participants) one->greet();
+  run_.greeted = now;
 }
 
 IgnoredMessages RosParticipant::ignored() const {
@@ -114,7 +126,7 @@ IgnoredMessages RosParticipant::ignored() const {
 }
 
 double RosParticipant::limitOf(Phase phase) const {
-  if (phase == Phase::kStart) return run_.limits.start_s;
+  if (growsWithTheFlow(phase)) return run_.limits.start_s;
   if (phase == Phase::kAbort) return std::min(kAbortLimit, run_.limits.exchange_s);
   return run_.limits.exchange_s;
 }
@@ -146,6 +158,7 @@ void RosParticipant::await(ParticipantRequest& message, const ExchangeKey& key) 
     if (reply_) return;
     requireAlive(key);
     const ros::SteadyTime now = ros::SteadyTime::now();
+    if (growsWithTheFlow(key.phase) && key.phase != Phase::kStart) greetEveryone();
     if (*run_.stop && !stopped) stopped = now;
     if (stopped && now >= *stopped + ros::WallDuration(run_.limits.grace_s)) {
       throw ExchangeError("interrupted while waiting for " + name() + " at " + describe(key));

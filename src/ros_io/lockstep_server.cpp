@@ -47,9 +47,7 @@ void LockstepServer::seekRequests() {
 
 /// Before the first request: subscribes anew to what is still missing.
 void LockstepServer::seekCoordinator() {
-  const ros::SteadyTime now = ros::SteadyTime::now();
-  if (started_ || now < renewal_) return;
-  renewal_ = now + kRenewal;
+  if (started_ || !renewal_.due()) return;
   if (!coordinator_) seekHello();
   if (requests_.getNumPublishers() == 0) seekRequests();
 }
@@ -99,7 +97,7 @@ void LockstepServer::letCoordinatorLeave() {
 
 void LockstepServer::waitForCoordinator() {
   const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(limits_.connect_s);
-  renewal_ = ros::SteadyTime::now() + kRenewal;
+  renewal_ = Renewal();
   while (!coordinatorListens()) {
     queue_.callAvailable(kSlice);
     seekCoordinator();

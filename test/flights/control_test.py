@@ -130,6 +130,7 @@ class Control(flying.FlightTest):
         self.assertEqual(client.get_state(), GoalStatus.REJECTED)
         self.assertIn("from 61 to %d" % STEPS, client.get_goal_status_text())
         fly(0)
+        self.wait_for(lambda: listener.steps[-1] > 60, 30, "a step of the new goal")
         self.assertIn("; flying behind step ", self.good("checkpoint"))
         client.cancel_goal()
         self.assertTrue(client.wait_for_result(flying_duration(30)))

@@ -118,7 +118,7 @@ TEST(Limits, FollowFromTheWatchdog) {
   const LockstepLimits limits = limitsFor(60.0);
   EXPECT_EQ(60.0, limits.exchange_s);
   EXPECT_EQ(60.0, limits.connect_s);
-  EXPECT_EQ(600.0, limits.start_s);
+  EXPECT_EQ(600.0, limits.start_s);  // CHECKPOINT and RESTORE too: lockstep_test
   EXPECT_EQ(180.0, limits.silence_s);
   EXPECT_EQ(30.0, limitsFor(2.0).connect_s);
 }
@@ -126,6 +126,7 @@ TEST(Limits, FollowFromTheWatchdog) {
 // Both ends subscribe anew to what is missing; who comes meanwhile is found as if nothing had been.
 TEST_F(Lockstep, WhoComesAfterTheOtherHasSubscribedAnewIsFound) {
   const ros::WallDuration late = kRenewal + ros::WallDuration(0.5);
+  run.limits.connect_s = server_limits.connect_s = 30.0;
   client = std::make_unique<RosParticipant>(node, fluid, run);
   std::thread solver_comes([&] {
     late.sleep();

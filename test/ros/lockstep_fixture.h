@@ -91,7 +91,7 @@ class Lockstep : public testing::Test {
     } catch (const ExchangeError& e) {
       return e.what();
     }
-    return "no failure";
+    return "";
   }
   static std::string uniqueNamespace() {
     static int count = 0;

@@ -102,6 +102,42 @@ TEST_F(Lockstep, AMissingReplyEndsInTheWatchdogWithItsName) {
   EXPECT_LT(waited, 1.5);
 }
 
+// One solver writes or reads a large flow; those that wait do not take it for silence.
+TEST_F(Lockstep, ACheckpointMayTakeAsLongAsAStart) {
+  run.limits.start_s = 10.0;
+  server_limits.silence_s = 1.0;
+  solver.dawdle_s = 2.0;
+  ScriptedSolver other_solver;
+  LockstepIdentity wing = fluid;
+  wing.role = Role::kWing;
+  LockstepServer other(node, wing, other_solver, server_limits, server_stop);
+  std::string other_end = "ended";
+  std::thread other_thread([&] {
+    try {
+      other.serve();
+    } catch (const std::exception& e) {
+      other_end = e.what();
+    }
+  });
+  RosParticipant waiting(node, wing, run);
+  connect();
+  waiting.connect();
+  client->exchange(request(0, 0, Phase::kStart));
+  waiting.exchange(request(0, 0, Phase::kStart));
+  solver.slow_phase = Phase::kRestore;
+  EXPECT_EQ("", failureOf(*client, request(1, 0, Phase::kRestore)));
+  client->exchange(request(2, 0, Phase::kIterate));
+  waiting.exchange(request(2, 0, Phase::kIterate));
+  solver.slow_phase = Phase::kCheckpoint;
+  EXPECT_EQ("", failureOf(*client, request(1, 0, Phase::kCheckpoint)));
+  EXPECT_EQ("", failureOf(waiting, request(2, 0, Phase::kCommit)));
+  client->exchange(request(2, 0, Phase::kAbort));
+  waiting.exchange(request(2, 0, Phase::kAbort));
+  server_stop = true;
+  other_thread.join();
+  EXPECT_TRUE(other_end.find("silent") == std::string::npos) << other_end;
+}
+
 TEST_F(Lockstep, AnAnswerThatComesTooLateIsNotTakenForTheNext) {
   solver.slow_phase = Phase::kIterate;
   solver.dawdle_s = 1.3;

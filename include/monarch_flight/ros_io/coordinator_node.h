@@ -29,7 +29,6 @@ class CoordinatorNode {
   Case case_;
   ros::NodeHandle node_;
   LockstepRun run_;
-  ros::WallTime greeted_;
   std::array<std::unique_ptr<RosParticipant>, 3> participants_;
 };
 

@@ -26,16 +26,16 @@ struct LockstepIdentity {
 struct LockstepLimits {
   double connect_s = 60.0;   ///< handshake: both directions connected and agreed
   double exchange_s = 60.0;  ///< one request until its reply (the watchdog)
-  double start_s = 600.0;    ///< the same for START, which builds and factorises the grid
+  double start_s = 600.0;    ///< the same for START, CHECKPOINT and RESTORE: of the whole flow
   double silence_s = 180.0;  ///< participant: between two requests
   /// How long both ends go on after an interrupt, so that a last checkpoint can be made; roslaunch
   /// interrupts all nodes at once and waits 15 s for them.
   double grace_s = 10.0;
 };
 
-/// Limits that follow from the watchdog of a case: START may take ten times as long as an exchange;
-/// a participant bears the silence of two exchanges (START: two STARTs) with the other two and one
-/// more.
+/// Limits that follow from the watchdog of a case: START, CHECKPOINT and RESTORE may take ten times
+/// as long as an exchange; a participant bears the silence of two exchanges (START: two STARTs) with
+/// the other two and one more.
 LockstepLimits limitsFor(double watchdog_s);
 
 /// Depth of the queues of the protocol: few messages are ever sent, many may arrive from strangers.
@@ -43,8 +43,25 @@ LockstepLimits limitsFor(double watchdog_s);
 constexpr std::uint32_t kOutgoing = 8, kIncoming = 1000;
 
 /// A subscriber asks a publisher once for a connection; roscpp does not ask again where that fails,
-/// as it may on a machine under load. So what is missing after this time is subscribed to anew.
+/// as it may on a machine under load. So what is missing after this time is subscribed to anew, and
+/// again after twice the time, and so on: a slow connection is not cut for ever.
 const ros::WallDuration kRenewal(3.0);
+
+/// Says when to subscribe anew.
+class Renewal {
+ public:
+  bool due() {
+    const ros::SteadyTime now = ros::SteadyTime::now();
+    if (now < next_) return false;
+    interval_ += interval_;
+    next_ = now + interval_;
+    return true;
+  }
+
+ private:
+  ros::WallDuration interval_ = kRenewal;
+  ros::SteadyTime next_ = ros::SteadyTime::now() + kRenewal;
+};
 
 /// "12.5 s", for messages.
 std::string inSeconds(double s);

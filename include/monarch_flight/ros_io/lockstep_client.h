@@ -18,6 +18,7 @@ struct LockstepRun {
   LockstepLimits limits;
   const StopFlag* stop = nullptr;                   ///< ends every wait when it becomes true
   std::vector<const RosParticipant*> participants;  ///< registered by their constructors
+  ros::SteadyTime greeted;  ///< when all of them had the last sign of life
 };
 
 /// The coordinator's end: a solver in another node, as a Participant (fields: msg/*.msg).
@@ -41,9 +42,9 @@ class RosParticipant : public Participant {
   /// "the fluid node (/monarch_flight/fluid)"
   std::string name() const;
 
-  /// A sign of life while nothing is asked (a paused run); the solver's limit of silence begins
-  /// anew.
-  void greet();
+  /// A sign of life to all solvers, at most five times a second, while nothing is asked of them (a
+  /// held run, a long answer of another one): their limit of silence begins anew.
+  void greetEveryone() const;
   /// Throws ExchangeError when this node or another one of the run is lost; `where` ends the text.
   void requireEveryone(const std::string& where) const;
 
@@ -52,6 +53,7 @@ class RosParticipant : public Participant {
   IgnoredMessages ignored() const override;
 
  private:
+  void greet() const;
   void seekHello();
   void seekReplies();
   void onHello(const HelloConstPtr& hello);

@@ -56,7 +56,8 @@ class LockstepServer {
   bool started_ = false;       // START has been answered
   bool iterating_ = false;     // START of all participants is over
   bool ended_ = false;         // the coordinator has ended the run
-  ros::SteadyTime last_heard_, stopped_, renewal_;
+  ros::SteadyTime last_heard_, stopped_;
+  Renewal renewal_;
   ParticipantReply cache_;    // the last good answer, when started_
   ParticipantReply failure_;  // the last failure; error is empty while there is none
   ParticipantReply kept_;     // the last good answer to CHECKPOINT, which may come within a step
