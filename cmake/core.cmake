@@ -50,6 +50,8 @@ target_link_libraries(monarch_trim PRIVATE PkgConfig::YAML_CPP Threads::Threads)
 set(CORE_LAYERS monarch_math monarch_insect monarch_fluid monarch_flight monarch_wing monarch_coupling monarch_run monarch_trim)
 
 # Programs of the core, one per file of src/programs.
-add_executable(trim src/programs/trim.cpp)
-target_link_libraries(trim PRIVATE monarch_trim)
-target_compile_definitions(trim PRIVATE MONARCH_CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config")
+foreach(program trim inverse_dynamics)
+  add_executable(${program} src/programs/${program}.cpp)
+  target_link_libraries(${program} PRIVATE monarch_trim)
+  target_compile_definitions(${program} PRIVATE MONARCH_CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config")
+endforeach()

@@ -1,0 +1,53 @@
+#pragma once
+#include <Eigen/Dense>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "monarch_flight/insect/numeric_table.h"
+#include "monarch_flight/run/case.h"
+
+namespace monarch_flight {
+
+/// What must act besides air and gravity so that a motion happens (inverse dynamics), at one time.
+struct RequiredLoads {
+  double t = 0.0;      ///< [s]
+  Coordinate theta_R;  ///< wing pitch [rad]
+  Eigen::Vector3d wing =
+      Eigen::Vector3d::Zero();  ///< torque of one wing's joint, wing axes, spring included [N m]
+  double abdomen = 0.0;         ///< torque of the abdomen's joint about y [N m]
+  double force_x = 0.0, force_z = 0.0;  ///< on the whole insect, F_I [N]; zero where x, z are free
+  double pitch = 0.0;  ///< about the body's mass centre [N m]; zero where pitch is free
+};
+
+/// Required loads of every row of a flight.csv (docs/run_files.md), whose loads, body state and
+/// theta_R are taken, with the other joint angles of the case's motion. InputError where a column
+/// is missing or the insect is a bare wing.
+std::vector<RequiredLoads> requiredLoads(const Case& c, const NumericTable& flight);
+
+/// The linear hinge that comes nearest to the required torque about the pitch axis (least squares):
+///   torque = -kappa (theta_R - theta_0) - damping theta_R'.
+struct HingeFit {
+  double kappa = 0.0;         ///< [N m/rad]
+  double theta_0 = 0.0;       ///< [rad]
+  double damping = 0.0;       ///< [N m s/rad]; below zero the hinge must do work on the wing
+  double spring_share = 0.0;  ///< share of the torque's variance that a spring alone explains
+  double damped_share = 0.0;  ///< the same for spring and damper
+  double spring_kappa = 0.0, spring_theta_0 = 0.0;  ///< of the spring alone
+  double torque_rms = 0.0;                          ///< of the required torque about its mean [N m]
+  double power = 0.0;  ///< mean power of the required torque, one wing [W]
+};
+
+/// Needs three rows or more and a wing that pitches; InputError otherwise.
+HingeFit fitHinge(const std::vector<RequiredLoads>& rows);
+
+/// Writes t and the required loads with a header line.
+void writeRequiredLoads(const std::vector<RequiredLoads>& rows, std::ostream& out);
+
+/// scripts/inverse_dynamics: reads case.yaml and flight.csv of the folder `run`, takes the flaps
+/// `from` to `to` (counted from 0, `to` < 0: to the end), writes inverse_dynamics.csv into the
+/// folder and a summary to `out`. InputError for a folder without them and an empty window.
+void runInverseDynamics(const std::string& run, double from, double to,
+                        const std::string& config_dir, std::ostream& out);
+
+}  // namespace monarch_flight
