@@ -57,8 +57,8 @@ extra: 1
 
 TEST_F(CaseTest, FilesAndNames) {
   expectHas(faults("nope"),
-            "one of climb, climb_fwuav, climb_navier_stokes, climb_trimmed, "
-            "hinge, passive_pitch, plate_re100, tethered_fwuav");
+            "one of climb, climb_fwuav, climb_navier_stokes, climb_navier_stokes_standard, "
+            "climb_trimmed, hinge, measured_motion, passive_pitch, plate_re100, tethered_fwuav");
   expectHas(faults("/nonexistent/case.yaml"), "/nonexistent/case.yaml does not exist");
   expectHas(faults(write("syntax.yaml", "a: [1\n")), "is not YAML");
   expectHas(faults(write("list.yaml", "[1, 2]\n")), "holds no keys");
