@@ -34,11 +34,16 @@ std::string written(const Data& data, const std::string& path) {
 class FieldOutput : public StepSink {
  public:
   FieldOutput(const Case& c, const std::string& folder, StateVisitor* resumed)
-      : case_(c), folder_(folder), scales_{pressureReference(c), vortexThreshold(c)} {
+      : case_(c),
+        folder_(folder),
+        scales_{pressureReference(c), vortexThreshold(c)},
+        resumed_(resumed != nullptr) {
     if (resumed != nullptr && resumed->has("fields_count")) onCheckpoint(*resumed);
   }
 
   void onStep(const CommittedStep& step) override {
+    if (resumed_) takeBackFrom(step.step);
+    resumed_ = false;
     if (!step.flow) return;
     makeFolder();
     const Entry entry(step.step, step.t);
@@ -90,6 +95,24 @@ class FieldOutput : public StepSink {
     std::string flow, wing;
   };
 
+  /// A run that goes on flies `step` and what is behind it anew, perhaps without files of the same
+  /// steps as before.
+  void takeBackFrom(std::uint32_t step) const {
+    if (!fs::exists(folder_)) return;
+    for (const fs::directory_entry& file : fs::directory_iterator(folder_)) {
+      const std::string name = file.path().filename();
+      unsigned number = 0;
+      const bool ours = std::sscanf(name.c_str(), "flow_%8u.vts", &number) == 1 ||
+                        std::sscanf(name.c_str(), "wing_%8u.vtp", &number) == 1;
+      if (ours && number >= step) fs::remove(file.path());
+    }
+    if (entries_.empty()) {
+      fs::remove(folder_ + "/fields.pvd");
+    } else {
+      writeSeries();
+    }
+  }
+
   void makeFolder() const {
     std::error_code error;
     fs::create_directories(folder_, error);
@@ -127,6 +150,7 @@ class FieldOutput : public StepSink {
   const std::string folder_;
   const FieldScales scales_;
   std::vector<Entry> entries_;
+  bool resumed_;  // and no step of it has come yet
 };
 
 }  // namespace

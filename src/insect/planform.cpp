@@ -82,7 +82,9 @@ void requireOnePiece(const std::function<double(double)>& leading,
       if (wing && begun && gap && last - gap_from > 1e-9 * (ends.back() - ends.front())) {
         std::ostringstream text;
         text << "no chord from y = " << gap_from << " m to y = " << last
-             << " m: the wing must be one piece from root to tip; give these stations a chord";
+             << " m: the wing must be one piece from root to tip; give these stations a chord "
+                "(edges that are "
+                "polynomials: change the order, or take type csv)";
         reject(text.str());
       }
       if (!wing && !gap) gap_from = y;
@@ -143,10 +145,6 @@ Planform Planform::scaledTo(double span_wanted, double area_wanted) const {
 double Planform::chord(double y) const {
   if (y < y_root_ || y > y_tip_) return 0.0;
   return std::max(0.0, leading_(y) - trailing_(y));
-}
-
-bool Planform::contains(double x, double y) const {
-  return y >= y_root_ && y <= y_tip_ && x >= trailing_(y) && x <= leading_(y);
 }
 
 double Planform::integrateSpan(const std::function<double(double, double, double)>& f) const {

@@ -1,3 +1,4 @@
+// The order of a coupled run, step by step, and how it ends.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -5,112 +6,15 @@
 #include "core/coupling_fakes.h"
 #include "monarch_flight/coupling/coordinator.h"
 #include "monarch_flight/coupling/interface_values.h"
-#include "monarch_flight/flight/flight_solver.h"
 
 namespace monarch_flight {
 namespace {
 
+using testing::dimensionlessDistance;
 using testing::Federation;
-using testing::LinearAir;
 using testing::monarchAir;
 
 constexpr FreeCoordinates kAllFree = {true, true, true, true};
-
-/// All equations of a step at once: Newton on the generalised forces of the 15-velocity system,
-/// rows x, z, pitch and right hinge. Shares neither solvers nor loop with the coordinator.
-class Monolith {
- public:
-  Monolith(const CoupledModel& model, const LinearAir& air)
-      : model_(model), air_(air), dynamics_(model.insect, model.gravity) {}
-
-  Interface step(const Interface& n, double t_n, double t) const {
-    const Vector6d velocity_n =
-        LinearAir::velocity(rightWingMotion(model_.insect, n.body, model_.angles(t_n, n.theta_R)));
-    Eigen::Vector4d a(n.body.a.x(), n.body.a.z(), n.body.pitch.qdd, n.theta_R.qdd);
-    for (int newton = 0; newton < 6; ++newton) {
-      const Eigen::Vector4d r = residual(n, velocity_n, t, a);
-      Eigen::Matrix4d jacobian;
-      for (int j = 0; j < 4; ++j) {
-        const double h = j < 2 ? 1.0 : 100.0;
-        Eigen::Vector4d shifted = a;
-        shifted(j) += h;
-        jacobian.col(j) = (residual(n, velocity_n, t, shifted) - r) / h;
-      }
-      a -= jacobian.fullPivLu().solve(r);
-    }
-    return at(n, t, a);
-  }
-
- private:
-  Interface at(const Interface& n, double t, const Eigen::Vector4d& a) const {
-    Interface next = model_.prescribed(t);
-    next.body = advancedBody(n.body, next.body, model_.free, model_.newmark, a.head<3>());
-    next.theta_R = model_.newmark.advance(n.theta_R, a(3));
-    return next;
-  }
-  Eigen::Vector4d residual(const Interface& n, const Vector6d& velocity_n, double t,
-                           const Eigen::Vector4d& a) const {
-    const Interface next = at(n, t, a);
-    const JointAngles angles = model_.angles(t, next.theta_R);
-    const Loads loads = air_.law(velocity_n, rightWingMotion(model_.insect, next.body, angles));
-    const InsectMotion motion = insectMotion(model_.insect.beta, next.body, angles);
-    Vector15d rest = dynamics_.inertialForce(motion) - dynamics_.gravityForce(motion) -
-                     dynamics_.airForce(motion, loads);
-    rest(7) += model_.insect.kappa * (next.theta_R.q - model_.insect.theta_0);
-    return {rest(0), rest(2), rest(4), rest(7)};
-  }
-  CoupledModel model_;
-  const LinearAir& air_;
-  MultibodyDynamics dynamics_;
-};
-
-double dimensionlessDistance(const Interface& a, const Interface& b, double length) {
-  return std::max({(a.body.x - b.body.x).cwiseAbs().maxCoeff() / length,
-                   std::abs(a.body.pitch.q - b.body.pitch.q), std::abs(a.theta_R.q - b.theta_R.q)});
-}
-
-class AddedMass : public ::testing::TestWithParam<double> {};
-
-/// Every committed step, seen from the level committed before.
-TEST_P(AddedMass, StepsAreMonolithicWithinTheTolerance) {
-  Federation f(testing::coupledModel(kAllFree, 200), testing::couplingSettings(),
-               monarchAir(GetParam()));
-  const CoupledOutcome outcome = f.run();
-  ASSERT_TRUE(outcome.complete) << outcome.failure;
-  const Monolith monolith(f.model, *f.air);
-  for (std::uint32_t step = 11; step <= 200; ++step) {
-    const Interface exact =
-        monolith.step(f.sink.steps[step - 1].interface, f.model.time(step - 1), f.model.time(step));
-    ASSERT_LT(dimensionlessDistance(f.sink.steps[step].interface, exact, f.settings.length_scale),
-              1e-9)
-        << "step " << step;
-  }
-}
-
-/// The whole flight: errors of accelerations add up over the steps, so the tolerances are tight.
-TEST_P(AddedMass, FlightIsTheMonolithicOne) {
-  CouplingSettings settings = testing::couplingSettings();
-  settings.tolerance = 1e-12;
-  settings.load_tolerance = 1e-9;
-  Federation f(testing::coupledModel(kAllFree, 200), settings, monarchAir(GetParam()));
-  const CoupledOutcome outcome = f.run();
-  ASSERT_TRUE(outcome.complete) << outcome.failure;
-  ASSERT_EQ(f.sink.steps.size(), 201u);
-  const Monolith monolith(f.model, *f.air);
-  Interface exact = f.sink.steps[10].interface;
-  for (std::uint32_t step = 11; step <= 200; ++step) {
-    exact = monolith.step(exact, f.model.time(step - 1), f.model.time(step));
-    ASSERT_LT(dimensionlessDistance(f.sink.steps[step].interface, exact, f.settings.length_scale),
-              1e-8)
-        << "step " << step;
-  }
-  // It has flown: the coordinates are far from the prescribed ones.
-  const Interface prescribed = f.model.prescribed(f.model.time(200));
-  EXPECT_GT(std::abs(exact.theta_R.q - prescribed.theta_R.q), 0.05);
-  EXPECT_GT(std::abs(exact.body.pitch.q - prescribed.body.pitch.q), 0.005);
-}
-
-INSTANTIATE_TEST_SUITE_P(Ratios, AddedMass, ::testing::Values(0.0, 0.5, 1.0, 2.0, 5.0, 20.0));
 
 class Coordination : public ::testing::Test {
  protected:
@@ -275,9 +179,9 @@ TEST_F(Coordination, AnUnconvergedStepEndsTheRunWithADiagnosis) {
   Federation f = with(settings);
   const CoupledOutcome outcome = f.run();
   EXPECT_FALSE(outcome.complete);
-  for (const char* words : {"step 11", "did not converge in 6 sub-iterations", "theta_R",
-                            "(too large)", "added-mass ratio", "relaxation to added_mass",
-                            "coupling/max_sub_iterations"}) {
+  for (const char* words :
+       {"step 11", "did not converge in 6 sub-iterations", "theta_R", "(too large)",
+        "added-mass ratio", "relaxation to added_mass", "coupling/max_sub_iterations"}) {
     EXPECT_NE(outcome.failure.find(words), std::string::npos) << outcome.failure;
   }
   EXPECT_EQ(f.sink.failure, outcome.failure);

@@ -197,5 +197,11 @@ struct Federation {
   StopFlag stop{false};
 };
 
+/// Of two interfaces, positions over `length` [m], angles in rad.
+inline double dimensionlessDistance(const Interface& a, const Interface& b, double length) {
+  return std::max({(a.body.x - b.body.x).cwiseAbs().maxCoeff() / length,
+                   std::abs(a.body.pitch.q - b.body.pitch.q), std::abs(a.theta_R.q - b.theta_R.q)});
+}
+
 }  // namespace testing
 }  // namespace monarch_flight

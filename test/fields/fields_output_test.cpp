@@ -13,11 +13,15 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "monarch_flight/fields/field_output.h"
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/run/checkpoints.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/pressure_reference.h"
+#include "monarch_flight/run/run_outputs.h"
 
 namespace monarch_flight {
 namespace {
@@ -203,6 +207,68 @@ TEST_F(Fields, AResetTakesTheFilesBack) {
 TEST_F(Fields, AFolderThatCannotBeMadeEndsTheRun) {
   const auto files = makeFieldOutput(theCase(), "/proc/fields");
   EXPECT_THROW(files->onStep(last()), std::runtime_error);
+}
+
+/// Ends the run behind a step as a full disk does; the solvers' last checkpoint is older.
+class FullDisk : public Keeper {
+ public:
+  explicit FullDisk(std::uint32_t at) : at_(at) {}
+  void onStep(const CommittedStep& step) override {
+    if (step.step == at_) throw OutputError("the disk is full");
+  }
+
+ private:
+  std::uint32_t at_;
+};
+
+class ResumedFields : public Fields {
+ protected:
+  static void fly(const std::string& name, int every, bool resume, std::uint32_t until) {
+    Case c = theCase();
+    c.time.steps = 8;
+    c.output.fields_every = every;
+    c.output.checkpoint_every = 3;
+    const std::string out = folder() + "/" + name;
+    Checkpoints checkpoints(c, out, resume, 1);
+    const auto fields = makeFieldOutput(c, out + "/fields", checkpoints.outputs());
+    RunOutputs files(c, out, &checkpoints);
+    FullDisk disk(until);
+    InProcessFederation federation(c, checkpointFolder(out));
+    const RunResult result =
+        federation.run(1, {fields.get(), &files, &disk}, StopFlag(false), &checkpoints);
+    EXPECT_EQ(until > 8, result.complete) << result.failure;
+  }
+  /// Name and bytes of every file.
+  static std::map<std::string, std::string> files(const std::string& name) {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder() + "/" + name + "/fields")) {
+      std::ifstream file(entry.path(), std::ios::binary);
+      std::stringstream bytes;
+      bytes << file.rdbuf();
+      found[entry.path().filename()] = bytes.str();
+    }
+    return found;
+  }
+};
+
+// The file of step 4 lies behind the checkpoint of step 3: written twice, or not any more.
+TEST_F(ResumedFields, ARunThatGoesOnHasNeitherGapNorDouble) {
+  fly("whole", 2, false, 9);
+  fly("cut", 2, false, 5);
+  ASSERT_EQ(5u, files("cut").size());
+  fly("cut", 2, true, 9);
+  ASSERT_EQ(9u, files("whole").size());
+  EXPECT_TRUE(files("whole") == files("cut"));
+
+  fly("other", 2, false, 5);
+  fly("other", 3, true, 9);
+  const auto found = files("other");
+  EXPECT_EQ(5u, found.size());
+  for (const char* step : {"00000002", "00000006"}) {
+    EXPECT_EQ(1u, found.count("flow_" + std::string(step) + ".vts"));
+    EXPECT_EQ(1u, found.count("wing_" + std::string(step) + ".vtp"));
+  }
+  EXPECT_EQ(std::string::npos, found.at("fields.pvd").find("00000004"));
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ class Planform {
   static Planform table(const std::vector<double>& y, const std::vector<double>& leading,
                         const std::vector<double>& trailing);
   /// Least-squares polynomials (default 6th order) through the stations, clamped so that chord >= 0.
-  /// Refused, too: an order above 2 sqrt(stations), edges that cross by more than 0.05 mean chords
-  /// or miss the stations by more than 0.1 (rms).
+  /// Refused, too: an order above 2 sqrt(stations), edges that cross by more than 0.05 mean chords,
+  /// or anywhere but towards root and tip, or miss the stations by more than 0.1 (rms).
   static Planform polynomial(const std::vector<double>& y, const std::vector<double>& leading,
                              const std::vector<double>& trailing, int order = 6);
 
@@ -40,7 +40,6 @@ class Planform {
   double leading(double y) const { return leading_(y); }
   double trailing(double y) const { return trailing_(y); }
   double chord(double y) const;
-  bool contains(double x, double y) const;
   const std::vector<double>& breaks() const { return breaks_; }
 
   double xMin() const { return x_min_; }  ///< bounding box in x
