@@ -1,6 +1,7 @@
 // The added mass of plates, from the direct pressure solver, against exact values.
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <fstream>
 #include <functional>

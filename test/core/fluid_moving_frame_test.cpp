@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/fluid_flapping.h"
+#include "fluid/flow.h"
 
 namespace monarch_flight {
 namespace {

@@ -44,6 +44,18 @@ Vector3d world(const Vector3d& ned) { return {ned.y(), ned.x(), -ned.z()}; }
 
 Vector3d tuple(vtkDataArray* a, vtkIdType i) { return Vector3d(a->GetTuple3(i)); }
 
+/// Ends the run behind a step as a full disk does; the solvers' last checkpoint is older.
+class FullDisk : public Keeper {
+ public:
+  explicit FullDisk(std::uint32_t at) : at_(at) {}
+  void onStep(const CommittedStep& step) override {
+    if (step.step == at_) throw OutputError("the disk is full");
+  }
+
+ private:
+  std::uint32_t at_;
+};
+
 /// One flight for all tests: a monarch in wind, two files in four steps.
 class Fields : public ::testing::Test {
  protected:
@@ -65,6 +77,34 @@ class Fields : public ::testing::Test {
     ASSERT_EQ(2u, keeper().steps.size());
   }
   static void TearDownTestSuite() { fs::remove_all(folder()); }
+
+  /// Flies into folder()/name, files of every so many steps, to the step where the disk fills.
+  static void fly(const std::string& name, int every, bool resume, std::uint32_t until) {
+    Case c = theCase();
+    c.time.steps = 8;
+    c.output.fields_every = every;
+    c.output.checkpoint_every = 3;
+    const std::string out = folder() + "/" + name;
+    Checkpoints checkpoints(c, out, resume, 1);
+    const auto fields = makeFieldOutput(c, out + "/fields", checkpoints.outputs());
+    RunOutputs files(c, out, &checkpoints);
+    FullDisk disk(until);
+    InProcessFederation federation(c, checkpointFolder(out));
+    const RunResult result =
+        federation.run(1, {fields.get(), &files, &disk}, StopFlag(false), &checkpoints);
+    EXPECT_EQ(until > 8, result.complete) << result.failure;
+  }
+  /// Name and bytes of every file.
+  static std::map<std::string, std::string> files(const std::string& name) {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder() + "/" + name + "/fields")) {
+      std::ifstream file(entry.path(), std::ios::binary);
+      std::stringstream bytes;
+      bytes << file.rdbuf();
+      found[entry.path().filename()] = bytes.str();
+    }
+    return found;
+  }
 
   static std::string& folder() {
     static std::string f;
@@ -209,50 +249,8 @@ TEST_F(Fields, AFolderThatCannotBeMadeEndsTheRun) {
   EXPECT_THROW(files->onStep(last()), std::runtime_error);
 }
 
-/// Ends the run behind a step as a full disk does; the solvers' last checkpoint is older.
-class FullDisk : public Keeper {
- public:
-  explicit FullDisk(std::uint32_t at) : at_(at) {}
-  void onStep(const CommittedStep& step) override {
-    if (step.step == at_) throw OutputError("the disk is full");
-  }
-
- private:
-  std::uint32_t at_;
-};
-
-class ResumedFields : public Fields {
- protected:
-  static void fly(const std::string& name, int every, bool resume, std::uint32_t until) {
-    Case c = theCase();
-    c.time.steps = 8;
-    c.output.fields_every = every;
-    c.output.checkpoint_every = 3;
-    const std::string out = folder() + "/" + name;
-    Checkpoints checkpoints(c, out, resume, 1);
-    const auto fields = makeFieldOutput(c, out + "/fields", checkpoints.outputs());
-    RunOutputs files(c, out, &checkpoints);
-    FullDisk disk(until);
-    InProcessFederation federation(c, checkpointFolder(out));
-    const RunResult result =
-        federation.run(1, {fields.get(), &files, &disk}, StopFlag(false), &checkpoints);
-    EXPECT_EQ(until > 8, result.complete) << result.failure;
-  }
-  /// Name and bytes of every file.
-  static std::map<std::string, std::string> files(const std::string& name) {
-    std::map<std::string, std::string> found;
-    for (const auto& entry : fs::directory_iterator(folder() + "/" + name + "/fields")) {
-      std::ifstream file(entry.path(), std::ios::binary);
-      std::stringstream bytes;
-      bytes << file.rdbuf();
-      found[entry.path().filename()] = bytes.str();
-    }
-    return found;
-  }
-};
-
 // The file of step 4 lies behind the checkpoint of step 3: written twice, or not any more.
-TEST_F(ResumedFields, ARunThatGoesOnHasNeitherGapNorDouble) {
+TEST_F(Fields, ARunThatGoesOnHasNeitherGapNorDouble) {
   fly("whole", 2, false, 9);
   fly("cut", 2, false, 5);
   ASSERT_EQ(5u, files("cut").size());
