@@ -1,5 +1,6 @@
 // The z factor, which sees the wall's new velocity, on one process or several.
 #include <algorithm>
+#include <array>
 
 #include "fluid/momentum.h"
 
@@ -13,6 +14,16 @@ struct Momentum::Lines {
   std::ptrdiff_t gamma_plane;  // stride of k in gamma
   std::ptrdiff_t gamma_row;    // stride of j in gamma
   double* gammaAt(int j, int k) const { return gamma + j * gamma_row + k * gamma_plane; }
+
+  // Lines that are cut by slabs: planes pass from process to process towards the wing and back.
+  void eliminateSlabs(Momentum& m, const Velocity& c, const WallVelocity& wall_change,
+                      RowRange rows) const;
+  void joinSlabs(const Momentum& m, RowRange rows) const;
+  void substituteSlabs(const Momentum& m, RowRange rows) const;
+  /// Plane k of solution and factors.
+  std::array<double*, 2> plane(const Momentum& m, int k) const {
+    return {x + m.layout_.plane(k), gamma - m.layout_.at(0, 0, 0) + m.layout_.plane(k)};
+  }
 };
 
 void Momentum::eliminateRow(const Velocity& c, const WallVelocity& wall_change, const Lines& lines,
@@ -119,77 +130,82 @@ void Momentum::addLevel(const Lines& lines, const Velocity& vn, RowRange rows) c
   }
 }
 
+void Momentum::Lines::eliminateSlabs(Momentum& m, const Velocity& c,
+                                     const WallVelocity& wall_change, RowRange rows) const {
+  const int k0 = m.layout_.k0, k1 = m.layout_.k1, kw = m.grid_.k_wing;
+  const int n = static_cast<int>(m.layout_.sz);
+  if (k0 < kw) {
+    if (!m.slab_.atBottom()) {
+      for (double* p : plane(m, k0 - 1)) m.slab_.receiveFromBelow(p, n);
+    }
+    m.eliminate(c, wall_change, *this, rows, 0);
+    if (k1 < kw) {
+      for (double* p : plane(m, k1 - 1)) m.slab_.sendUp(p, n);
+    }
+  }
+  if (k1 > kw) {
+    if (!m.slab_.atTop()) {
+      for (double* p : plane(m, k1)) m.slab_.receiveFromAbove(p, n);
+    }
+    m.eliminate(c, wall_change, *this, rows, 1);
+    if (k0 > kw) {
+      for (double* p : plane(m, k0)) m.slab_.sendDown(p, n);
+    }
+  }
+}
+
+/// Two processes that meet at the wing's plane first exchange their points beside it.
+void Momentum::Lines::joinSlabs(const Momentum& m, RowRange rows) const {
+  const int k0 = m.layout_.k0, k1 = m.layout_.k1, kw = m.grid_.k_wing;
+  const int n = static_cast<int>(m.layout_.sz);
+  if (k0 > kw || k1 < kw) return;
+  const std::array<double*, 2> below = plane(m, kw - 1), above = plane(m, kw);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (k1 == kw) m.slab_.exchangeAbove(below[i], above[i], n);
+    if (k0 == kw) m.slab_.exchangeBelow(above[i], below[i], n);
+  }
+  m.join(*this, rows);
+}
+
+void Momentum::Lines::substituteSlabs(const Momentum& m, RowRange rows) const {
+  const int k0 = m.layout_.k0, k1 = m.layout_.k1, kw = m.grid_.k_wing;
+  const int n = static_cast<int>(m.layout_.sz);
+  if (k0 < kw) {
+    if (k1 < kw) m.slab_.receiveFromAbove(plane(m, k1)[0], n);
+    m.substitute(*this, rows, 0);
+    if (!m.slab_.atBottom()) m.slab_.sendDown(plane(m, k0)[0], n);
+  }
+  if (k1 > kw) {
+    if (k0 > kw) m.slab_.receiveFromBelow(plane(m, k0 - 1)[0], n);
+    m.substitute(*this, rows, 1);
+    if (!m.slab_.atTop()) m.slab_.sendUp(plane(m, k1 - 1)[0], n);
+  }
+}
+
 void Momentum::sweepZ(const Velocity& c, const WallVelocity& wall_change, int component,
                       const Velocity& vn, Velocity& v_star) {
-  const int j0 = first(component, 1), j1 = last(component, 1), kw = grid_.k_wing;
+  const int j0 = first(component, 1), j1 = last(component, 1);
   Lines lines{component,     delta_.c[component].data(), v_star.c[component].data(),
               gamma_.data(), kRowsZ * layout_.sy,        layout_.sy};
-  if (slab_.ranks() == 1) {
-    for (int j = j0; j <= j1; j += kRowsZ) {
-      const RowRange rows{j, std::min(j + kRowsZ - 1, j1)};
-      lines.gamma = gamma_.data() - j * layout_.sy;
-      eliminate(c, wall_change, lines, rows, 0);
-      eliminate(c, wall_change, lines, rows, 1);
-      join(lines, rows);
-      substitute(lines, rows, 0);
-      substitute(lines, rows, 1);
-      addLevel(lines, vn, rows);
-    }
+  if (slab_.ranks() > 1) {
+    lines.gamma = gamma_field_.data() + layout_.at(0, 0, 0);
+    lines.gamma_plane = layout_.sz;
+    lines.eliminateSlabs(*this, c, wall_change, {j0, j1});
+    lines.joinSlabs(*this, {j0, j1});
+    lines.substituteSlabs(*this, {j0, j1});
+    addLevel(lines, vn, {j0, j1});
     return;
   }
-  const RowRange rows{j0, j1};
-  // The same with the lines cut by slabs: planes pass from process to process towards the wing and
-  // back.
-  lines.gamma = gamma_field_.data() + layout_.at(0, 0, 0);
-  lines.gamma_plane = layout_.sz;
-  lines.gamma_row = layout_.sy;
-  const int k0 = layout_.k0, k1 = layout_.k1, n = static_cast<int>(layout_.sz);
-  const bool has_below = k0<kw, has_above = k1> kw;
-  auto x = [&](int k) { return lines.x + layout_.plane(k); };
-  auto gamma = [&](int k) { return gamma_field_.data() + layout_.plane(k); };
-  if (has_below) {
-    if (!slab_.atBottom()) {
-      slab_.receiveFromBelow(x(k0 - 1), n);
-      slab_.receiveFromBelow(gamma(k0 - 1), n);
-    }
+  for (int j = j0; j <= j1; j += kRowsZ) {
+    const RowRange rows{j, std::min(j + kRowsZ - 1, j1)};
+    lines.gamma = gamma_.data() - j * layout_.sy;
     eliminate(c, wall_change, lines, rows, 0);
-    if (k1 < kw) {
-      slab_.sendUp(x(k1 - 1), n);
-      slab_.sendUp(gamma(k1 - 1), n);
-    }
-  }
-  if (has_above) {
-    if (!slab_.atTop()) {
-      slab_.receiveFromAbove(x(k1), n);
-      slab_.receiveFromAbove(gamma(k1), n);
-    }
     eliminate(c, wall_change, lines, rows, 1);
-    if (k0 > kw) {
-      slab_.sendDown(x(k0), n);
-      slab_.sendDown(gamma(k0), n);
-    }
-  }
-  if (k1 == kw) {
-    slab_.exchangeAbove(x(kw - 1), x(kw), n);
-    slab_.exchangeAbove(gamma(kw - 1), gamma(kw), n);
-  } else if (k0 == kw) {
-    slab_.exchangeBelow(x(kw), x(kw - 1), n);
-    slab_.exchangeBelow(gamma(kw), gamma(kw - 1), n);
-  }
-  if (k0 <= kw && k1 >= kw) {
     join(lines, rows);
-  }
-  if (has_below) {
-    if (k1 < kw) slab_.receiveFromAbove(x(k1), n);
     substitute(lines, rows, 0);
-    if (!slab_.atBottom()) slab_.sendDown(x(k0), n);
-  }
-  if (has_above) {
-    if (k0 > kw) slab_.receiveFromBelow(x(k0 - 1), n);
     substitute(lines, rows, 1);
-    if (!slab_.atTop()) slab_.sendUp(x(k1 - 1), n);
+    addLevel(lines, vn, rows);
   }
-  addLevel(lines, vn, rows);
 }
 
 }  // namespace monarch_flight
