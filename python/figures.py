@@ -148,12 +148,23 @@ def figure_6(_):
 MASSES = [35.35e-6, 35.8e-6, 36.25e-6, 36.75e-6, 37.25e-6]  # of a wing, the range of the paper [kg]
 
 
+def flight_options(settings):
+    return [f"fluid:={settings.fluid}", f"flaps:={settings.flaps}"] + ["grid:=preview"] * (settings.fluid == "navier_stokes")
+
+
 def free_runs(settings, masses):
     """{label: run folder}: those given by runs:=, or one flight for each wing mass."""
     if settings.given:
         return {str(folder.name): folder for folder in settings.given}
-    options = [f"fluid:={settings.fluid}", f"flaps:={settings.flaps}"] + ["grid:=preview"] * (settings.fluid == "navier_stokes")
-    return data.sweep(settings.runs, settings.case, masses, *options)
+    return data.sweep(settings.runs, settings.case, masses, *flight_options(settings))
+
+
+def free_run(settings):
+    """Folder of the run: the first one given by runs:=, or a flight of the case as it is."""
+    if settings.given:
+        return settings.given[0]
+    fields = ["fields_every:=250"] * (settings.fluid == "navier_stokes")
+    return data.run(settings.runs, settings.case, *flight_options(settings), *fields)
 
 
 def figure_7(settings):
@@ -176,7 +187,7 @@ def figure_7(settings):
 
 def figure_8(settings):
     """Thrust, lift, wing pitch and body pitch of a free flight against the measured ones."""
-    label, folder = next(iter(free_runs(settings, [36.25e-6]).items()))
+    folder = free_run(settings)
     flight, case, real = data.flight(folder), data.case_of(folder), data.measured()
     f, insect = case["motion"]["frequency"], case["insect"]
     mass = insect["body"]["mass"] + insect["abdomen"]["mass"] + 2 * insect["wing"]["mass"]
@@ -186,11 +197,11 @@ def figure_8(settings):
     figure, grid = plt.subplots(2, 2, sharex=True, figsize=(11, 6.5), constrained_layout=True)
     ours, theirs = data.body_forces(flight), data.measured_forces(real, mass)
     for axes, title, a, b in zip(grid[0], ("a) thrust", "b) lift"), ours, theirs):
-        axes.plot(t[1:], 1e3 * a[1:], color=OURS, label=label)
+        axes.plot(t[1:], 1e3 * a[1:], color=OURS, label="simulated")
         axes.plot(s, 1e3 * b, color=MEASURED, ls=":", label="measured: mass times (a - g) of the thorax")
         axes.set(title=title + ", body axes", ylabel="force [mN]")
     for axes, title, name in zip(grid[1], (r"c) wing pitch $\theta_R$", r"d) body pitch $\theta_B$"), ("theta_R", "theta_B")):
-        axes.plot(t, deg(flight[name]), color=OURS, label=label)
+        axes.plot(t, deg(flight[name]), color=OURS, label="simulated")
         fit = real["series"][name]
         axes.plot(s, deg(real["columns"][name]), "o", color="0.65", ms=2.5, label="measured")
         axes.plot(s, deg(reduction.evaluate(fit, real["columns"]["t"], fit["frequency"])), color=MEASURED, ls=":",
@@ -207,9 +218,7 @@ def figure_8(settings):
 
 def figure_9(settings):
     """Vortices, wing pressure and flown path at t/T = 0.5 and 3, rendered off screen."""
-    folder = settings.given[0] if settings.given else data.run(
-        settings.runs, settings.case, "fluid:=navier_stokes", "grid:=preview", "flaps:=3",
-        "fields_every:=250")
+    folder = free_run(settings)
     figure, panels = plt.subplots(1, 2, figsize=(13, 4.8), constrained_layout=True)
     for axes, flap, name in zip(panels, (0.5, 3.0), "ab"):
         axes.imshow(plt.imread(data.rendered(folder, flap, settings.out)))

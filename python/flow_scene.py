@@ -151,10 +151,11 @@ def draw(flow_file, wing_file, points, direction, keys):
         actor.GetProperty().SetDiffuse(0.75)
         renderer.AddActor(actor)
     actors, pressure_scale = wing_actors(wings, keys["cp"] or 1.0)
-    if len(points) > 1:
-        actors.append(path(points, 0.006 * span))
     for actor in actors:
         renderer.AddActor(actor)
+    shown = renderer.ComputeVisiblePropBounds()  # the path may run out of the picture
+    if len(points) > 1:
+        renderer.AddActor(path(points, 0.006 * span))
     renderer.AddActor2D(bar(vorticity_scale, "spanwise\nvorticity [1/s]", 0.01))
     renderer.AddActor2D(bar(pressure_scale, "wing\nCp", 0.14))
 
@@ -163,7 +164,7 @@ def draw(flow_file, wing_file, points, direction, keys):
     camera.SetFocalPoint(*body)
     camera.SetPosition(*(b + 10 * span * d for b, d in zip(body, direction)))
     camera.SetViewUp(*((0, 1, 0) if direction[2] > 0.9 else (0, 0, 1)))
-    renderer.ResetCamera()
+    renderer.ResetCamera(shown)
     camera.Zoom(1.25)
     renderer.ResetCameraClippingRange()
     save(renderer, [int(n) for n in keys["size"].split("x")], keys["picture"])

@@ -74,7 +74,9 @@ auto here(Call call) {
 void endAll(MPI_Comm comm, const std::string& why) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  std::cerr << "process " << rank << " of the flow failed alone: " << why << std::endl;
+  // In one piece, so that no other process writes into it.
+  std::cerr << "process " + std::to_string(rank) + " of the flow failed alone: " + why + "\n"
+            << std::flush;
   MPI_Abort(comm, 1);
 }
 

@@ -72,7 +72,7 @@ class Control(flying.FlightTest):
         self.check_action(listener)
         self.check_reset(listener)
         self.good("resume")
-        code, output = self.finish(process, 60)
+        code, output = self.finish(process, 180)
         self.assertEqual(code, 0, output)
         self.check_same_flight()
 

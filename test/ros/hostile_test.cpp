@@ -64,7 +64,7 @@ class Refused {
  private:
   void onDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& all) {
     for (const auto& status : all->status) {
-      if (status.name != "coordinator: messages") continue;
+      if (status.name.find("coordinator: messages") == std::string::npos) continue;
       strange = old = 0.0;
       for (const auto& entry : status.values) {
         const bool is_old = entry.key == "late" || entry.key == "repeated";
