@@ -5,7 +5,10 @@
 #include <ros/ros.h>
 #include <tf2/buffer_core.h>
 
+#include <array>
+#include <cstring>
 #include <random>
+#include <regex>
 
 #include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/ros_io/run_parameters.h"
@@ -18,16 +21,53 @@ namespace {
 
 Case climb() { return loadCase("climb", {{"fluid", "quasi_steady"}}, CONFIG_DIR); }
 
+/// Text without its numbers, and these: their last digits are those of a processor and a compiler.
+struct Content {
+  explicit Content(const std::string& text) {
+    static const std::regex number(R"(-?\d+(\.\d+)?(e[-+]?\d+)?)");
+    words = std::regex_replace(text, number, "#");
+    for (std::sregex_iterator it(text.begin(), text.end(), number), end; it != end; ++it)
+      numbers.push_back(std::stod(it->str()));
+  }
+  std::string words;
+  std::vector<double> numbers;
+};
+
+/// The coordinates and normals of a binary STL file.
+std::vector<double> stlNumbers(const std::string& bytes) {
+  constexpr std::size_t kHead = 84, kTriangle = 50, kFloats = 12;
+  std::vector<double> numbers;
+  for (std::size_t at = kHead; at + kTriangle <= bytes.size(); at += kTriangle) {
+    std::array<float, kFloats> values;
+    std::memcpy(values.data(), bytes.data() + at, sizeof values);
+    numbers.insert(numbers.end(), values.begin(), values.end());
+  }
+  return numbers;
+}
+
+void expectNear(const std::vector<double>& a, const std::vector<double>& b, double relative,
+                double least, const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_NEAR(a[i], b[i], std::max(least, relative * std::abs(b[i]))) << what << " " << i;
+}
+
 TEST(Urdf, TheShippedOneIsThatOfThePaperPreset) {
   const Case c = climb();
   TemporaryFolder folder;
   writeMeshes(c.insect, folder / "meshes");
-  EXPECT_EQ(insectUrdf(c.insect, "package://monarch_flight/urdf/meshes/"),
-            fileText(std::string(URDF_DIR) + "/monarch.urdf"));
+  const Content made(insectUrdf(c.insect, "package://monarch_flight/urdf/meshes/")),
+      shipped(fileText(std::string(URDF_DIR) + "/monarch.urdf"));
+  EXPECT_EQ(made.words, shipped.words);
+  ASSERT_GT(made.numbers.size(), 100u);
+  expectNear(made.numbers, shipped.numbers, 1e-12, 1e-20, "number");
   for (const char* mesh : {"right_wing.stl", "left_wing.stl", "thorax.stl", "abdomen.stl"}) {
-    EXPECT_EQ(fileText(folder / (std::string("meshes/") + mesh)),
-              fileText(std::string(URDF_DIR) + "/meshes/" + mesh))
-        << mesh;
+    const std::string made_file = fileText(folder / (std::string("meshes/") + mesh)),
+                      shipped_file = fileText(std::string(URDF_DIR) + "/meshes/" + mesh);
+    EXPECT_EQ(made_file.size(), shipped_file.size()) << mesh;
+    const std::vector<double> numbers = stlNumbers(made_file);
+    ASSERT_GT(numbers.size(), 100u) << mesh;
+    expectNear(numbers, stlNumbers(shipped_file), 1e-6, 1e-9, mesh);
   }
 }
 
