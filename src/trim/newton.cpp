@@ -109,8 +109,15 @@ void update(MatrixXd& J, const VectorXd& step, const TrimResidual& before,
   J += (change - J * step) * step.transpose() / step.squaredNorm();
 }
 
+/// Whether a trial tells of the map near by: a flight that tumbles has other slopes.
+bool isNear(const TrimResidual& trial, const TrimResidual& at) {
+  constexpr double kFar = 4.0;
+  return trial.stacked().norm() < kFar * at.stacked().norm();
+}
+
 /// Shortens steps until one is better; nothing when none is. Broyden's method learns from every
-/// flight, so its next step also has another direction. `limit` bounds this and the next step.
+/// flight near by, so its next step also has another direction. `limit` bounds this and the next
+/// step.
 std::optional<TrimResidual> search(const TrimFunction& f, NewtonResult& r, VectorXd& step,
                                    double& limit, const NewtonSettings& settings) {
   const Index n = r.residual.periodicity.size();
@@ -118,7 +125,9 @@ std::optional<TrimResidual> search(const TrimFunction& f, NewtonResult& r, Vecto
     step = bounded(step, r.unknowns, n, limit, settings);
     const auto trial = f(r.unknowns + step);
     ++r.evaluations;
-    if (trial && settings.broyden) update(r.jacobian, step, r.residual, *trial);
+    if (trial && settings.broyden && isNear(*trial, r.residual)) {
+      update(r.jacobian, step, r.residual, *trial);
+    }
     if (trial && better(*trial, r.residual, settings.weight)) {
       limit = std::min(2.0 * limit, settings.max_step);
       return trial;

@@ -63,6 +63,22 @@ TEST(TrimNewton, BroydenNeedsOneJacobian) {
   EXPECT_LE(r.evaluations, 1 + 4 + 3 * r.iterations);
 }
 
+TEST(TrimNewton, BroydenLearnsNothingFromAFlightFarOff) {
+  NewtonSettings s = settings(0, 0);
+  s.broyden = true;
+  s.max_halvings = 0;
+  const MatrixXd given = 0.4 * MatrixXd::Identity(2, 2);  // its step falls below -0.5
+  for (const double below : {1000.0, 2.0}) {
+    const auto f = [below](const VectorXd& y) -> std::optional<TrimResidual> {
+      return TrimResidual{y(0) < -0.5 ? VectorXd(below * y) : y, VectorXd()};
+    };
+    const NewtonResult r = solveTrim(f, VectorXd::Unit(2, 0), s, given, ignore);
+    EXPECT_FALSE(r.converged);
+    EXPECT_EQ(2, r.evaluations);
+    EXPECT_EQ(below == 1000.0, r.jacobian == given);
+  }
+}
+
 // State s with fixed point s = p (periodicity p - s), targets: s = 2, with p in its range.
 std::optional<TrimResidual> follower(const VectorXd& y) {
   return TrimResidual{VectorXd::Constant(1, std::tanh(y(1) - y(0))),
