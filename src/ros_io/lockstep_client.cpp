@@ -39,6 +39,11 @@ RosParticipant::RosParticipant(const ros::NodeHandle& node, const LockstepIdenti
   run_.participants.push_back(this);
 }
 
+RosParticipant::~RosParticipant() {
+  auto& all = run_.participants;
+  all.erase(std::remove(all.begin(), all.end(), this), all.end());
+}
+
 void RosParticipant::seekHello() {
   hello_in_.shutdown();
   hello_in_ = subscribeOn(run_.queue, node_, "hello", identity_.token, counters_,

@@ -17,7 +17,7 @@ struct LockstepRun {
   std::uint64_t id = 0;
   LockstepLimits limits;
   const StopFlag* stop = nullptr;                   ///< ends every wait when it becomes true
-  std::vector<const RosParticipant*> participants;  ///< registered by their constructors
+  std::vector<const RosParticipant*> participants;  ///< as long as they live
   ros::SteadyTime greeted;                          ///< when all of them had the last sign of life
 };
 
@@ -27,6 +27,7 @@ class RosParticipant : public Participant {
  public:
   /// Advertises and subscribes in `node`'s namespace. `run` must outlive this.
   RosParticipant(const ros::NodeHandle& node, const LockstepIdentity& identity, LockstepRun& run);
+  ~RosParticipant() override;
   RosParticipant(const RosParticipant&) = delete;
   RosParticipant& operator=(const RosParticipant&) = delete;
 
