@@ -1,5 +1,6 @@
 // What a step says on /diagnostics.
 #include <cstdio>
+#include <string>
 
 #include "monarch_flight/ros_io/flight_messages.h"
 
@@ -17,6 +18,13 @@ diagnostic_msgs::KeyValue entry(const char* key, double value) {
   return out;
 }
 
+diagnostic_msgs::KeyValue count(const char* key, std::uint64_t value) {
+  diagnostic_msgs::KeyValue out;
+  out.key = key;
+  out.value = std::to_string(value);
+  return out;
+}
+
 // Late and repeated messages happen where a node was slow; the others come from strangers.
 DiagnosticStatus messages(const IgnoredMessages& ignored) {
   const bool strangers = ignored.foreign + ignored.malformed + ignored.forged > 0;
@@ -26,11 +34,9 @@ DiagnosticStatus messages(const IgnoredMessages& ignored) {
   out.level = strangers ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
   out.message =
       strangers ? "messages of strangers were refused" : "only the nodes of the run speak";
-  out.values = {entry("late", static_cast<double>(ignored.late)),
-                entry("repeated", static_cast<double>(ignored.repeated)),
-                entry("foreign", static_cast<double>(ignored.foreign)),
-                entry("malformed", static_cast<double>(ignored.malformed)),
-                entry("forged", static_cast<double>(ignored.forged))};
+  out.values = {count("late", ignored.late), count("repeated", ignored.repeated),
+                count("foreign", ignored.foreign), count("malformed", ignored.malformed),
+                count("forged", ignored.forged)};
   return out;
 }
 

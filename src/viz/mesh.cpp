@@ -9,10 +9,10 @@ namespace {
 
 using Point = Eigen::Vector3f;
 
-// A quadrilateral a, b, c, d as two triangles; degenerate ones (edges that meet) are left out.
+// A quadrilateral a, b, c, d as two triangles; those of which two corners meet are left out.
 void addQuad(Mesh& mesh, const Point& a, const Point& b, const Point& c, const Point& d) {
   const auto add = [&mesh](const Point& p, const Point& q, const Point& r) {
-    if ((q - p).cross(r - p).norm() > 0.0f) mesh.triangles.push_back({p, q, r});
+    if (p != q && q != r && r != p) mesh.triangles.push_back({p, q, r});
   };
   add(a, b, c);
   add(a, c, d);

@@ -27,7 +27,8 @@ class InverseDynamics : public CaseTest {
     std::ofstream(folder_ / "case.yaml") << c.resolved_yaml;
     TableSink sink((folder_ / "flight.csv").string());
     InProcessFederation federation(c);
-    const RunResult result = federation.run(1, {&sink}, StopFlag(false));
+    StopFlag stop{false};
+    const RunResult result = federation.run(1, {&sink}, stop);
     EXPECT_TRUE(result.complete) << result.failure;
     return c;
   }

@@ -5,7 +5,6 @@
 #include <ros/ros.h>
 #include <tf2/buffer_core.h>
 
-#include <array>
 #include <cstring>
 #include <random>
 #include <regex>
@@ -21,53 +20,45 @@ namespace {
 
 Case climb() { return loadCase("climb", {{"fluid", "quasi_steady"}}, CONFIG_DIR); }
 
-/// Text without its numbers, and these: their last digits are those of a processor and a compiler.
-struct Content {
-  explicit Content(const std::string& text) {
-    static const std::regex number(R"(-?\d+(\.\d+)?(e[-+]?\d+)?)");
-    words = std::regex_replace(text, number, "#");
-    for (std::sregex_iterator it(text.begin(), text.end(), number), end; it != end; ++it)
-      numbers.push_back(std::stod(it->str()));
+/// Numbers of a text by position, and the text without them.
+std::pair<std::vector<double>, std::string> numbersOf(const std::string& text) {
+  static const std::regex number("-?[0-9]+(\\.[0-9]+)?(e[-+][0-9]+)?");
+  std::vector<double> values;
+  for (std::sregex_iterator i(text.begin(), text.end(), number), end; i != end; ++i) {
+    values.push_back(std::stod(i->str()));
   }
-  std::string words;
-  std::vector<double> numbers;
-};
-
-/// The coordinates and normals of a binary STL file.
-std::vector<double> stlNumbers(const std::string& bytes) {
-  constexpr std::size_t kHead = 84, kTriangle = 50, kFloats = 12;
-  std::vector<double> numbers;
-  for (std::size_t at = kHead; at + kTriangle <= bytes.size(); at += kTriangle) {
-    std::array<float, kFloats> values;
-    std::memcpy(values.data(), bytes.data() + at, sizeof values);
-    numbers.insert(numbers.end(), values.begin(), values.end());
-  }
-  return numbers;
+  return {values, std::regex_replace(text, number, "#")};
 }
 
-void expectNear(const std::vector<double>& a, const std::vector<double>& b, double relative,
-                double least, const std::string& what) {
-  ASSERT_EQ(a.size(), b.size()) << what;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    EXPECT_NEAR(a[i], b[i], std::max(least, relative * std::abs(b[i]))) << what << " " << i;
+/// The floats of a binary STL file: normal and corners of every triangle.
+std::vector<float> floatsOf(const std::string& bytes) {
+  std::vector<float> values;
+  for (std::size_t at = 84; at + 50 <= bytes.size(); at += 50) {
+    float triangle[12];
+    std::memcpy(triangle, &bytes[at], sizeof triangle);
+    values.insert(values.end(), triangle, triangle + 12);
+  }
+  return values;
 }
 
+// The last digits are those of the compiler's options.
 TEST(Urdf, TheShippedOneIsThatOfThePaperPreset) {
   const Case c = climb();
   TemporaryFolder folder;
   writeMeshes(c.insect, folder / "meshes");
-  const Content made(insectUrdf(c.insect, "package://monarch_flight/urdf/meshes/")),
-      shipped(fileText(std::string(URDF_DIR) + "/monarch.urdf"));
-  EXPECT_EQ(made.words, shipped.words);
-  ASSERT_GT(made.numbers.size(), 100u);
-  expectNear(made.numbers, shipped.numbers, 1e-12, 1e-20, "number");
+  const auto [ours, text] =
+      numbersOf(insectUrdf(c.insect, "package://monarch_flight/urdf/meshes/"));
+  const auto [shipped, shipped_text] = numbersOf(fileText(std::string(URDF_DIR) + "/monarch.urdf"));
+  EXPECT_EQ(text, shipped_text);
+  ASSERT_EQ(ours.size(), shipped.size());
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    EXPECT_NEAR(ours[i], shipped[i], 1e-12 * std::abs(shipped[i])) << "number " << i;
+  }
   for (const char* mesh : {"right_wing.stl", "left_wing.stl", "thorax.stl", "abdomen.stl"}) {
-    const std::string made_file = fileText(folder / (std::string("meshes/") + mesh)),
-                      shipped_file = fileText(std::string(URDF_DIR) + "/meshes/" + mesh);
-    EXPECT_EQ(made_file.size(), shipped_file.size()) << mesh;
-    const std::vector<double> numbers = stlNumbers(made_file);
-    ASSERT_GT(numbers.size(), 100u) << mesh;
-    expectNear(numbers, stlNumbers(shipped_file), 1e-6, 1e-9, mesh);
+    const auto mine = floatsOf(fileText(folder / (std::string("meshes/") + mesh)));
+    const auto theirs = floatsOf(fileText(std::string(URDF_DIR) + "/meshes/" + mesh));
+    ASSERT_EQ(mine.size(), theirs.size()) << mesh;
+    for (std::size_t i = 0; i < mine.size(); ++i) EXPECT_NEAR(mine[i], theirs[i], 1e-6f) << mesh;
   }
 }
 

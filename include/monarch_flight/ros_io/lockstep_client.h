@@ -17,7 +17,7 @@ struct LockstepRun {
   std::uint64_t id = 0;
   LockstepLimits limits;
   const StopFlag* stop = nullptr;                   ///< ends every wait when it becomes true
-  std::vector<const RosParticipant*> participants;  ///< those that exist
+  std::vector<const RosParticipant*> participants;  ///< as long as they live
   ros::SteadyTime greeted;                          ///< when all of them had the last sign of life
 };
 
