@@ -81,7 +81,7 @@ void IqnIls::memory(StateVisitor& state) {
     if (used) rows[i] << d.residual, d.answer, static_cast<double>(d.age);
   }
   state("iqn_ils_count", count_);
-  state.numbers("iqn_ils_differences", rows[0].data(), 9 * kCapacity);
+  state.numbers("iqn_ils_differences", rows[0].data(), 9 * std::size_t{kCapacity});
   if (!state.loading()) return;
   for (std::size_t i = 0; i < kCapacity; ++i) {
     differences_[i] = {rows[i].head<4>(), rows[i].segment<4>(4), static_cast<int>(rows[i][8])};

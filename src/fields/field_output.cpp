@@ -38,7 +38,7 @@ class FieldOutput : public StepSink {
         folder_(folder),
         scales_{pressureReference(c), vortexThreshold(c)},
         resumed_(resumed != nullptr) {
-    if (resumed != nullptr && resumed->has("fields_count")) onCheckpoint(*resumed);
+    if (resumed != nullptr && resumed->has("fields_count")) FieldOutput::onCheckpoint(*resumed);
   }
 
   void onStep(const CommittedStep& step) override {
