@@ -135,7 +135,8 @@ vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const FieldScales& sc
   const Placement place(c, step, false);
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataTypeToDouble();  // single precision is coarse beside the first cell after a metre
-  points->Allocate(static_cast<vtkIdType>(flow.x.size() * flow.y.size() * flow.z.size()));
+  const std::size_t corners = flow.x.size() * flow.y.size() * flow.z.size();
+  points->Allocate(static_cast<vtkIdType>(corners));
   for (double z : flow.z) {
     for (double y : flow.y) {
       for (double x : flow.x) points->InsertNextPoint(place.point({x, y, z}).data());

@@ -23,7 +23,7 @@ Loads affineLinearise(FluidModel& model, const WingMotion& next, LoadOperator& j
     (i < 3 ? motion.v_W(i) : motion.omega_W(i - 3)) += i < 3 ? kVelocity : kRate;
     shifted[static_cast<std::size_t>(i)] = vector(model.evaluate(motion));
   }
-  const Loads loads = model.evaluate(next);  // the last one is what a commit keeps
+  Loads loads = model.evaluate(next);  // the last one is what a commit keeps
   for (int i = 0; i < kAffineEvaluations; ++i) {
     jacobian.velocity.col(i) =
         (shifted[static_cast<std::size_t>(i)] - vector(loads)) / (i < 3 ? kVelocity : kRate);

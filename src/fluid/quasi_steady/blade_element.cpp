@@ -46,7 +46,7 @@ class BladeElement final : public FluidModel {
 
   Loads evaluate(const WingMotion& next) override {
     if (!started_) throw std::logic_error("quasi-steady fluid: evaluate before start");
-    const Loads loads = loadsOf(next);
+    Loads loads = loadsOf(next);
     evaluated_ = true;
     return loads;
   }
