@@ -46,11 +46,12 @@ def write_cases(case, over, out):
 
 
 def pitch_to_measured(flight, frequency):
-    """Wing pitch against the series of the measured flight, over the last whole flaps: ratio of the fundamentals'
-    amplitudes, how far ours is ahead [deg], rms difference [deg]."""
+    """Wing pitch against the series of the measured flight, over the last whole flaps (less than one: over all there is):
+    ratio of the fundamentals' amplitudes, how far ours is ahead [deg], rms difference [deg]."""
     series = data.published()["theta_R_deg"]
     steps = int(round(1 / frequency / (flight["t"][1] - flight["t"][0])))
-    whole = slice(len(flight["t"]) - (len(flight["t"]) - 1) // steps * steps, None)
+    flaps = (len(flight["t"]) - 1) // steps
+    whole = slice(len(flight["t"]) - flaps * steps if flaps else 0, None)
     t, ours = flight["t"][whole], np.degrees(flight["theta_R"][whole])
     theirs = reduction.evaluate(series, t, frequency * series["multiple"])
     a, b = (np.mean(theta * np.exp(-2j * np.pi * frequency * t)) for theta in (ours, theirs))
@@ -58,14 +59,15 @@ def pitch_to_measured(flight, frequency):
 
 
 def row(summary):
-    """Averages from the second free flap on (from the start, where there are fewer than two)."""
+    """Averages from the second free flap on; of all free flaps, or of the whole flight, where that leaves no whole flap."""
     folder = summary.parent
     told = json.loads(summary.read_text(encoding="utf-8"))
     flight, case = data.flight(folder), data.case_of(folder)
     period = 1.0 / case["motion"]["frequency"]
-    start = case["coupling"]["prescribed_steps"] * (flight["t"][1] - flight["t"][0]) + period
-    late = flight["t"] - flight["t"][0] >= start
-    late = late if np.count_nonzero(late) > 2 else np.ones_like(late)
+    t = flight["t"] - flight["t"][0]
+    release = case["coupling"]["prescribed_steps"] * (t[1] - t[0])
+    start = next((s for s in (release + period, release) if t[-1] - s >= period), 0.0)
+    late = t >= start
     part = {k: v[late] for k, v in flight.items()}
     dx, dz = part["x"][-1] - part["x"][0], part["z"][-1] - part["z"][0]
     theta_B, theta_R = np.degrees(part["theta_B"]), np.degrees(part["theta_R"])
