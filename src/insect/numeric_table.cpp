@@ -95,6 +95,7 @@ NumericTable NumericTable::select(const std::vector<std::string>& wanted) const 
   result.rows.reserve(rows.size());
   for (const auto& row : rows) {
     std::vector<double> kept;
+    kept.reserve(indices.size());
     for (const int index : indices) kept.push_back(row[index]);
     result.rows.push_back(std::move(kept));
   }

@@ -264,7 +264,7 @@ std::string problem(const ParticipantReply& reply) {
   }
   if (reply.flow.size() > 1) return std::to_string(reply.flow.size()) + " flows, at most one fits";
   for (const WholeFlow& flow : reply.flow) {
-    const std::string misfit = problem(flow);
+    std::string misfit = problem(flow);
     if (!misfit.empty()) return misfit;
   }
   const std::size_t picture = std::max(reply.surface.size(), reply.vortices.size());

@@ -42,14 +42,14 @@ FlightControl::FlightControl(const ros::NodeHandle& node, const Case& c, bool pa
       spinner_(kThreads, &queue_) {
   node_.setCallbackQueue(&queue_);
   action_ = std::make_unique<Server>(
-      node_, "fly", [this](Goal goal) { onGoal(goal); }, [this](Goal goal) { onCancel(goal); },
-      false);
+      node_, "fly", [this](const Goal& goal) { onGoal(goal); },
+      [this](const Goal& goal) { onCancel(goal); }, false);
   action_->start();
   services_ = {node_.advertiseService("pause", &FlightControl::onPause, this),
                node_.advertiseService("resume", &FlightControl::onResume, this),
                node_.advertiseService("step", &FlightControl::onSteps, this),
                node_.advertiseService("sub_iterate", &FlightControl::onSubIterate, this),
-               node_.advertiseService("checkpoint", &FlightControl::onCheckpoint, this),
+               node_.advertiseService("checkpoint", &FlightControl::onCheckpointAsked, this),
                node_.advertiseService("reset", &FlightControl::onResetAsked, this)};
   spinner_.start();
 }
@@ -81,7 +81,7 @@ bool FlightControl::onSubIterate(Trigger::Request&, Trigger::Response& response)
   return answer(place, place.held, response, place.held ? "" : kFlies);
 }
 
-bool FlightControl::onCheckpoint(Trigger::Request&, Trigger::Response& response) {
+bool FlightControl::onCheckpointAsked(Trigger::Request&, Trigger::Response& response) {
   if (!keeps_) {
     response.message =
         "checkpoint_every = 0: this run keeps no checkpoints; start it with another value";
@@ -135,7 +135,7 @@ void FlightControl::onGoal(Goal goal) {
       goal, asked == 0 ? time_.steps : asked, place.step, std::chrono::steady_clock::now(), {}};
 }
 
-void FlightControl::onCancel(Goal) { hold_.pauseSoon(); }
+void FlightControl::onCancel(const Goal&) { hold_.pauseSoon(); }
 
 std::optional<FlightControl::Flown> FlightControl::takeGoal() {
   const std::lock_guard<std::mutex> lock(goal_mutex_);

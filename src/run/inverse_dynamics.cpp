@@ -171,7 +171,8 @@ void runInverseDynamics(const std::string& run, double from, double to,
     if (flap >= from - 1e-9 && (to < 0.0 || flap < to - 1e-9)) window.push_back(flight.rows[i]);
   }
   if (window.size() < 3) {
-    throw InputError("from:=" + std::to_string(from) + " to:=" + std::to_string(to) + ": holds " +
+    const std::string end = to < 0.0 ? "" : " to:=" + std::to_string(to);
+    throw InputError("from:=" + std::to_string(from) + end + ": holds " +
                      std::to_string(window.size()) +
                      " steps of the flight; take a window of it in flaps");
   }

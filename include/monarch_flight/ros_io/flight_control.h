@@ -50,11 +50,11 @@ class FlightControl : public RunControl, public StepSink {
   bool onPause(Trigger::Request& request, Trigger::Response& response);
   bool onResume(Trigger::Request& request, Trigger::Response& response);
   bool onSubIterate(Trigger::Request& request, Trigger::Response& response);
-  bool onCheckpoint(Trigger::Request& request, Trigger::Response& response);
+  bool onCheckpointAsked(Trigger::Request& request, Trigger::Response& response);
   bool onResetAsked(Trigger::Request& request, Trigger::Response& response);
   bool onSteps(FlySteps::Request& request, FlySteps::Response& response);
   void onGoal(Goal goal);
-  void onCancel(Goal goal);
+  void onCancel(const Goal& goal);
   std::optional<Flown> takeGoal();
   void endGoal();
 
