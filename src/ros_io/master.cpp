@@ -37,7 +37,7 @@ void requireFreeMaster() {
                      ": start the run with roslaunch, start roscore, or use fly_in_process");
   }
   XmlRpc::XmlRpcValue uri;
-  const std::string name = ros::this_node::getName();
+  const std::string& name = ros::this_node::getName();
   if (ask("lookupNode", name, uri) && answers(uri)) {
     throw InputError("a run is already going on at the master " + ros::master::getURI() +
                      " (node " + name +

@@ -15,7 +15,7 @@ namespace {
 Case readCase(Role role) {
   XmlRpc::XmlRpcValue values = parametersOf(kNamespace);
   const RunParameters parameters = runParameters(values, std::string(kNamespace) + "/");
-  const Case c = loadCase(parameters);
+  Case c = loadCase(parameters);
   if (role == Role::kFluid) {
     requireProcesses(parameters, c);
     std::cout << plannedRun(parameters, c, true) << std::flush;
