@@ -187,7 +187,7 @@ std::string Section::text(const std::string& key) {
 
 std::string Section::name(const std::string& key) {
   constexpr std::size_t kLongest = 200;  // it becomes part of the names of files
-  const std::string value = text(key);
+  std::string value = text(key);
   if (value.size() > kLongest) {
     fault(key, " has " + std::to_string(value.size()) + " characters: must be at most " +
                    std::to_string(kLongest) + "; shorten it");
@@ -200,7 +200,7 @@ std::string Section::name(const std::string& key) {
 std::string Section::choice(const std::string& key, const std::vector<std::string>& options) {
   const auto node = required(key, "one of " + joined(options));
   if (!node) return "";
-  const std::string text = node->IsScalar() ? node->Scalar() : "";
+  std::string text = node->IsScalar() ? node->Scalar() : "";
   if (std::find(options.begin(), options.end(), text) == options.end()) {
     fault(key, " = " + shown(*node) + ": must be one of " + joined(options) + "; choose one");
     return "";

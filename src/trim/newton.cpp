@@ -123,7 +123,7 @@ std::optional<TrimResidual> search(const TrimFunction& f, NewtonResult& r, Vecto
   const Index n = r.residual.periodicity.size();
   for (int k = 0; k <= settings.max_halvings; ++k) {
     step = bounded(step, r.unknowns, n, limit, settings);
-    const auto trial = f(r.unknowns + step);
+    auto trial = f(r.unknowns + step);
     ++r.evaluations;
     if (trial && settings.broyden && isNear(*trial, r.residual)) {
       update(r.jacobian, step, r.residual, *trial);
@@ -201,7 +201,7 @@ VectorXd trimStep(const MatrixXd& jacobian, const TrimResidual& residual, const 
   if (settings.weight > 0.0) return jointStep(jacobian, residual, unknowns, settings, limit);
   const auto states = jacobian.topLeftCorner(n, n).completeOrthogonalDecomposition();
   VectorXd step(n + q);
-  const VectorXd s0 = states.solve(-residual.periodicity);
+  VectorXd s0 = states.solve(-residual.periodicity);
   if (q == 0) return s0;
   const MatrixXd along = states.solve(-jacobian.topRightCorner(n, q));  // of states, per parameter
   VectorXd p = VectorXd::Zero(q);
