@@ -83,8 +83,7 @@ void requireOnePiece(const std::function<double(double)>& leading,
         std::ostringstream text;
         text << "no chord from y = " << gap_from << " m to y = " << last
              << " m: the wing must be one piece from root to tip; give these stations a chord "
-                "(edges that are "
-                "polynomials: change the order, or take type csv)";
+                "(edges that are polynomials: change the order, or take type csv)";
         reject(text.str());
       }
       if (!wing && !gap) gap_from = y;
