@@ -55,7 +55,7 @@ double operatorSeconds() {
   const Case c = loadCase("climb", {}, CONFIG_DIR);
   const CoupledModel model = makeModel(c);
   StepModel step(model, c.coupling.length_scale);
-  step.begin(model.prescribed(0), model.time(1));
+  step.begin(c.motion->at(model.time(0)).interface(), c.motion->at(model.time(1)), 1);
   LoadOperator jacobian;
   jacobian.velocity.setRandom();
   jacobian.acceleration.setRandom();

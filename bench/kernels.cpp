@@ -47,7 +47,7 @@ struct Fields {
         momentum(grid, layout, slab),
         pressure(grid, slab),
         step{2 * s.dt(grid) / 3, s.dt(grid), s.air().mu / s.air().rho, s.air().rho, true},
-        wall(wallVelocity(gridVelocity(s.motion(0), s.air().wind_I))) {
+        wall(wallVelocity(gridVelocity(s.motion(0)))) {
     for (int d = 0; d < 3; ++d) {
       for (std::size_t q = 0; q < vn.c[d].size(); ++q) {
         vn.c[d][q] = std::sin(1e-3 * q + d);

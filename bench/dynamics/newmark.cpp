@@ -65,7 +65,6 @@ class LastStep : public StepSink {
 Eigen::Vector4d coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotion> motion,
                             bool known, int steps) {
   CoupledModel model{c.insect};
-  model.motion = std::move(motion);
   model.free = kAllFree;
   model.newmark.dt = c.time.period / steps;
   model.gravity = c.gravity;
@@ -78,10 +77,11 @@ Eigen::Vector4d coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotio
   FluidParticipant fluid(model, std::make_unique<GivenLoads>(1.0 / c.time.period));
   FlightParticipant flight(model);
   WingParticipant wing(model);
+  GuidanceParticipant guidance(model, std::make_unique<MotionGuidance>(std::move(motion)));
   LastStep sink;
   const StopFlag stop{false};
   FlyUntil control(stop);
-  const auto outcome = Coordinator(model, settings, fluid, flight, wing, 1).run({&sink}, control);
+  const auto outcome = Coordinator(model, settings, {&fluid, &flight, &wing, &guidance}, 1).run({&sink}, control);
   if (!outcome.complete) throw std::runtime_error("coupled flap: " + outcome.failure);
   const Interface& end = sink.last.interface;
   return {end.body.x.x(), end.body.x.z(), end.body.pitch.q, end.theta_R.q};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <numeric>
 
 #include "monarch_flight/coupling/interface_values.h"
 #include "monarch_flight/math/errors.h"
@@ -19,7 +20,7 @@ constexpr double kCautious = 0.25;  // relaxation of the second attempt over tha
 
 /// What the coordinator itself took of a step that began at `begin`.
 double ownSeconds(Clock::time_point begin, const CommittedStep& step) {
-  return secondsSince(begin) - step.wall_s[0] - step.wall_s[1] - step.wall_s[2] - step.exchange_s;
+  return secondsSince(begin) - std::accumulate(step.wall_s.begin(), step.wall_s.end(), step.exchange_s);
 }
 
 /// Smaller relaxation for a second attempt at a step.
@@ -41,11 +42,10 @@ const CoupledModel& checked(const CoupledModel& model, const CouplingSettings& s
 }  // namespace
 
 Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& settings,
-                         Participant& fluid, Participant& flight, Participant& wing,
-                         std::uint64_t run_id)
+                         const Participants& participants, std::uint64_t run_id)
     : model_(model),
       settings_(settings),
-      participants_{&fluid, &flight, &wing},
+      participants_(participants),
       run_id_(run_id),
       step_model_(checked(model, settings), settings.length_scale),
       balance_(model),
@@ -103,7 +103,9 @@ std::uint32_t Coordinator::start() {
   Request request;
   request.key = keyOf(0, 0, Phase::kStart);
   request.t = out.t;
-  request.interface = model_.prescribed(out.t);
+  prescribe(request, out);
+  request.prescribed = out.guided;
+  request.interface = out.guided.interface();
   for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
     const Reply reply = ask(role, request, out);
     if (role == Role::kFluid) out.fluid = reply.report;

@@ -4,13 +4,15 @@
 namespace monarch_flight {
 namespace {
 
-constexpr Role kRoles[] = {Role::kFluid, Role::kFlight, Role::kWing};
+constexpr Role kAll[] = {Role::kFluid, Role::kFlight, Role::kWing, Role::kGuidance};
 
 }  // namespace
 
 /// What one step leaves to the next. An accelerator of another kind begins without a memory.
 void Coordinator::memory(StateVisitor& state) {
   state("committed", committed_);
+  state("prescribed", prescribed_);
+  state("loads", loads_);
   state("increments_n", history_[0]);
   state("increments_n_minus_1", history_[1]);
   state("increments_n_minus_2", history_[2]);
@@ -29,7 +31,7 @@ void Coordinator::keep(std::uint32_t step) {
   Request request;
   request.key = keyOf(step, 0, Phase::kCheckpoint);
   try {
-    for (Role role : kRoles) ask(role, request, unused);
+    for (Role role : kAll) ask(role, request, unused);
   } catch (const NumericalError& e) {  // no reason to try the step once more
     throw ExchangeError(e.what());
   }
@@ -56,7 +58,7 @@ void Coordinator::resume() {
   CommittedStep unused;
   Request request;
   request.key = keyOf(*keeper_->resumed(), 0, Phase::kRestore);
-  for (Role role : kRoles) ask(role, request, unused);
+  for (Role role : kAll) ask(role, request, unused);
   keeper_->load([this](StateVisitor& state) { memory(state); });
 }
 

@@ -23,13 +23,14 @@ CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
   out.t = model_.time(step);
   out.prescribed = static_cast<int>(step) <= settings_.prescribed_steps || model_.free.count() == 0;
   before_.take([this](StateVisitor& state) { memory(state); });
-  step_model_.begin(committed_, step);
+  prescribe(out);
+  step_model_.begin(committed_, out.guided, step);
 
   Evaluation last;
   try {
     if (out.prescribed) {
       heed(control, out);
-      last = evaluate(step_model_.prescribed(), false, out);
+      last = evaluate(out.guided.interface(), false, out);
     } else {
       solve(control, last, out);
     }
@@ -38,6 +39,24 @@ CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
   }
   commit(last, out);
   return out;
+}
+
+// 0. prescribe: guidance hears of all of level n, and says all that is prescribed at level n+1.
+void Coordinator::prescribe(CommittedStep& out) {
+  Request request;
+  request.key = keyOf(out.step, 0, Phase::kIterate);
+  request.t = out.t;
+  request.prescribed = prescribed_;
+  request.interface = committed_;
+  request.loads = loads_;
+  prescribe(request, out);
+}
+
+void Coordinator::prescribe(const Request& request, CommittedStep& out) {
+  const Reply reply = ask(Role::kGuidance, request, out);
+  if (!reply.prescribed) throw ExchangeError("guidance did not say what is prescribed");
+  out.guided = *reply.prescribed;
+  out.guidance = reply.guidance;
 }
 
 void Coordinator::solve(RunControl& control, Evaluation& last, CommittedStep& out) {
@@ -120,6 +139,7 @@ Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, bool want_
   Request& request = evaluation.request;
   request.key = keyOf(out.step, static_cast<std::uint32_t>(out.iterations.size()), Phase::kIterate);
   request.t = out.t;
+  request.prescribed = out.guided;
   request.interface = guess;
 
   Request to_fluid = request;
@@ -153,7 +173,8 @@ void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
   request.key.phase = Phase::kCommit;
   const bool surface = due(out.step, model_.surface_every);
   const bool vortices = due(out.step, model_.vortices_every);
-  for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
+  for (Role role : {Role::kFluid, Role::kFlight, Role::kWing, Role::kGuidance}) {
+    if (role == Role::kGuidance) request.key.iteration = 0;  // it was asked once
     request.want_fields = role == Role::kFluid && (surface || vortices);
     request.want_flow = role == Role::kFluid && due(out.step, model_.fields_every);
     Reply reply = ask(role, request, out);
@@ -170,16 +191,16 @@ void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
 
 void Coordinator::balance(const Evaluation& last, CommittedStep& out) const {
   const Interface& guess = last.request.interface;
-  const InterfacePower power = balance_.power(out.t, guess, last.answer, last.trial.loads);
+  const InterfacePower power = balance_.power(out.guided, guess, last.answer, last.trial.loads);
   out.work_fluid = power.fluid * model_.newmark.dt;
   out.work_structure = power.structure * model_.newmark.dt;
-  out.added_mass_ratio = balance_.addedMassRatio(out.t, guess, added_mass_);
+  out.added_mass_ratio = balance_.addedMassRatio(out.guided, guess, added_mass_);
 }
 
 void Coordinator::finish(const Loads& loads, CommittedStep& out) {
   for (const Participant* participant : participants_) out.ignored += participant->ignored();
   out.loads = loads;
-  out.angles = model_.angles(out.t, out.interface.theta_R);
+  out.angles = out.guided.anglesWith(out.interface.theta_R);
   const double beta = model_.insect.beta;
   Eigen::Vector3d force_B = wingAttitude(beta, out.angles) * loads.force();
   if (!model_.insect.bare_wing) {
@@ -188,6 +209,8 @@ void Coordinator::finish(const Loads& loads, CommittedStep& out) {
   out.force_I = out.interface.body.R_IB * force_B;
 
   committed_ = out.interface;
+  prescribed_ = out.guided;
+  loads_ = loads;
   history_[2] = history_[1];
   history_[1] = history_[0];
   history_[0] = step_model_.increments(committed_);

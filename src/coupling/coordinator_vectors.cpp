@@ -57,7 +57,7 @@ void Coordinator::updateScales(const Loads& loads) {
 
 std::string Coordinator::notConverged(const CommittedStep& step, const std::string& error) const {
   const std::vector<IterationRecord>& all = step.iterations;
-  const double ratio = balance_.addedMassRatio(step.t, committed_, added_mass_);
+  const double ratio = balance_.addedMassRatio(step.guided, committed_, added_mass_);
   std::ostringstream text;
   text << "step " << step.step << " (t = " << step.t << " s) did not converge in " << all.size()
        << " sub-iterations of two attempts, the second one from a lower predictor and with smaller "

@@ -41,12 +41,12 @@ InterfaceBalance::InterfaceBalance(const CoupledModel& model) : model_(model) {
   if (!model.insect.bare_wing) dynamics_.emplace(model.insect, model.gravity);
 }
 
-InterfacePower InterfaceBalance::power(double t, const Interface& guess, const Interface& answer,
-                                       const Loads& loads) const {
+InterfacePower InterfaceBalance::power(const PrescribedState& prescribed, const Interface& guess,
+                                       const Interface& answer, const Loads& loads) const {
   InterfacePower power;
   const Insect& insect = model_.insect;
-  power.fluid = along(rightWingMotion(insect, guess.body, model_.angles(t, guess.theta_R)), loads);
-  const JointAngles angles = model_.angles(t, answer.theta_R);
+  power.fluid = along(rightWingMotion(insect, guess.body, prescribed.anglesWith(guess.theta_R)), loads);
+  const JointAngles angles = prescribed.anglesWith(answer.theta_R);
   if (!dynamics_) {
     power.structure = along(rightWingMotion(insect, answer.body, angles), loads);
     return power;
@@ -62,9 +62,10 @@ InterfacePower InterfaceBalance::power(double t, const Interface& guess, const I
   return power;
 }
 
-double InterfaceBalance::addedMassRatio(double t, const Interface& interface,
+double InterfaceBalance::addedMassRatio(const PrescribedState& prescribed,
+                                        const Interface& interface,
                                         const Matrix6d& added_mass) const {
-  const JointAngles angles = model_.angles(t, interface.theta_R);
+  const JointAngles angles = prescribed.anglesWith(interface.theta_R);
   const Matrix6x4 T = wingAcceleration(model_.insect, interface, angles);
   Eigen::Matrix4d air = T.transpose() * added_mass * T, structure = Eigen::Matrix4d::Zero();
   if (dynamics_) {

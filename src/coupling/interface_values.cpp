@@ -44,6 +44,28 @@ Interface interfaceOf(const InterfaceValues& values) {
   return interface;
 }
 
+PrescribedValues prescribedValues(const PrescribedState& prescribed) {
+  const JointAngles& angles = prescribed.angles;
+  PrescribedValues values;
+  values << interfaceValues(prescribed.interface()), angles.phi.q, angles.phi.qd, angles.phi.qdd,
+      angles.psi.q, angles.psi.qd, angles.psi.qdd, angles.theta_A.q, angles.theta_A.qd,
+      angles.theta_A.qdd, prescribed.rest_angle, prescribed.wind.v, prescribed.wind.a;
+  return values;
+}
+
+PrescribedState prescribedOf(const PrescribedValues& values) {
+  const auto coordinate = [&values](int first) {
+    return Coordinate{values[first], values[first + 1], values[first + 2]};
+  };
+  const Interface interface = interfaceOf(values.head<30>());
+  PrescribedState prescribed;
+  prescribed.body = interface.body;
+  prescribed.angles = {coordinate(30), coordinate(33), interface.theta_R, coordinate(36)};
+  prescribed.rest_angle = values[39];
+  prescribed.wind = {values.segment<3>(40), values.segment<3>(43)};
+  return prescribed;
+}
+
 bool same(const Interface& a, const Interface& b) {
   return interfaceValues(a) == interfaceValues(b);
 }
@@ -53,18 +75,18 @@ bool same(const Coordinate& a, const Coordinate& b) {
 }
 
 bool same(const Request& a, const Request& b) {
-  return a.key == b.key && a.t == b.t && same(a.interface, b.interface) && same(a.loads, b.loads) &&
+  return a.key == b.key && a.t == b.t && prescribedValues(a.prescribed) == prescribedValues(b.prescribed) && same(a.interface, b.interface) && same(a.loads, b.loads) &&
          a.want_operator == b.want_operator && a.want_fields == b.want_fields &&
          a.want_flow == b.want_flow;
 }
 
 bool finite(const Request& request) {
-  return std::isfinite(request.t) && interfaceValues(request.interface).allFinite() &&
+  return std::isfinite(request.t) && prescribedValues(request.prescribed).allFinite() && interfaceValues(request.interface).allFinite() &&
          finite(request.loads);
 }
 
 bool finite(const Reply& reply) {
-  return interfaceValues(reply.interface).allFinite() && finite(reply.loads) &&
+  return interfaceValues(reply.interface).allFinite() && (!reply.prescribed || prescribedValues(*reply.prescribed).allFinite()) && finite(reply.loads) &&
          (!reply.jacobian || (reply.jacobian->velocity.allFinite() &&
                               reply.jacobian->acceleration.allFinite()));
 }

@@ -4,17 +4,6 @@
 
 namespace monarch_flight {
 
-JointAngles CoupledModel::angles(double t, const Coordinate& theta_R) const {
-  JointAngles angles = motion->at(t).angles;
-  angles.theta = theta_R;
-  return angles;
-}
-
-Interface CoupledModel::prescribed(double t) const {
-  const PrescribedState state = motion->at(t);
-  return {state.body, state.angles.theta};
-}
-
 Interface CoupledModel::departure(std::uint32_t step, Interface committed,
                                   const Interface& next) const {
   if (release == 0 || step != release) return committed;
@@ -26,7 +15,6 @@ Interface CoupledModel::departure(std::uint32_t step, Interface committed,
 
 std::vector<std::string> CoupledModel::problems() const {
   std::vector<std::string> faults;
-  if (!motion) faults.push_back("motion: is missing; give a Fourier series or a table");
   if (!(std::isfinite(newmark.dt) && newmark.dt > 0.0)) {
     faults.push_back("time/dt = " + std::to_string(newmark.dt) + " s: must be above 0");
   }

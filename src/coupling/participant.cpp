@@ -10,6 +10,8 @@ const char* roleName(Role role) {
       return "flight";
     case Role::kWing:
       return "wing";
+    case Role::kGuidance:
+      return "guidance";
   }
   return "unknown role";
 }

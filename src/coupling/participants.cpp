@@ -9,9 +9,12 @@ namespace monarch_flight {
 FluidParticipant::FluidParticipant(const CoupledModel& model, std::unique_ptr<FluidModel> fluid)
     : SolverParticipant(Role::kFluid, model), fluid_(std::move(fluid)) {}
 
+/// As the air sees it.
 WingMotion FluidParticipant::wingMotion(const Request& request) const {
-  return rightWingMotion(model().insect, request.interface.body,
-                         model().angles(request.t, request.interface.theta_R));
+  const PrescribedState& prescribed = request.prescribed;
+  return relativeTo(prescribed.wind,
+                    rightWingMotion(model().insect, request.interface.body,
+                                    prescribed.anglesWith(request.interface.theta_R)));
 }
 
 void FluidParticipant::onStart(const Request& request, Reply& reply) {
@@ -59,11 +62,10 @@ FlightParticipant::FlightParticipant(const CoupledModel& model)
 void FlightParticipant::onStart(const Request&, Reply&) {}
 
 void FlightParticipant::onIterate(const Request& request, Reply& reply) {
-  const BodyState prescribed = model().prescribed(request.t).body;
-  const JointAngles angles = model().angles(request.t, request.interface.theta_R);
+  const JointAngles angles = request.prescribed.anglesWith(request.interface.theta_R);
   const Interface from = model().departure(request.key.step, committed(), request.interface);
-  reply.interface.body =
-      solver_.step(from.body, prescribed, request.interface.body, angles, request.loads);
+  reply.interface.body = solver_.step(from.body, request.prescribed.body, request.interface.body,
+                                      angles, request.loads);
 }
 
 void FlightParticipant::onCommit(const Request&, Reply&) {}
@@ -80,11 +82,12 @@ WingParticipant::WingParticipant(const CoupledModel& model)
 void WingParticipant::onStart(const Request&, Reply&) {}
 
 void WingParticipant::onIterate(const Request& request, Reply& reply) {
-  const JointAngles angles = model().angles(request.t, request.interface.theta_R);
+  const PrescribedState& prescribed = request.prescribed;
+  const JointAngles angles = prescribed.anglesWith(request.interface.theta_R);
   const Interface from = model().departure(request.key.step, committed(), request.interface);
-  reply.interface.theta_R =
-      solver_ ? solver_->step(from.theta_R, request.interface.body, angles, request.loads)
-              : model().prescribed(request.t).theta_R;
+  reply.interface.theta_R = solver_ ? solver_->step(from.theta_R, request.interface.body, angles,
+                                                    request.loads, prescribed.rest_angle)
+                                    : prescribed.angles.theta;
 }
 
 void WingParticipant::onCommit(const Request&, Reply&) {}
@@ -92,5 +95,48 @@ void WingParticipant::onCommit(const Request&, Reply&) {}
 bool WingParticipant::sameGuess(const Interface& answered, const Interface& committed) const {
   return same(answered.theta_R, committed.theta_R);  // the body in ITERATE is the flight's answer
 }
+
+GuidanceParticipant::GuidanceParticipant(const CoupledModel& model,
+                                         std::unique_ptr<Guidance> guidance)
+    : SolverParticipant(Role::kGuidance, model), guidance_(std::move(guidance)) {}
+
+void GuidanceParticipant::onStart(const Request& request, Reply& reply) {
+  ahead_ = false;
+  reply.prescribed = guidance_->start(request.t);
+  reply.guidance = guidance_->report();
+}
+
+void GuidanceParticipant::onIterate(const Request& request, Reply& reply) {
+  const auto show = [this](StateVisitor& state) { guidance_->memory(state); };
+  if (ahead_) {
+    before_.putBack(show);
+  } else {
+    before_.take(show);
+  }
+  ahead_ = true;
+  reply.prescribed = guidance_->next({request.key.step, request.t, request.interface,
+                                      request.loads, request.prescribed});
+  reply.guidance = guidance_->report();
+}
+
+void GuidanceParticipant::onCommit(const Request&, Reply&) { ahead_ = false; }
+
+/// Of the committed level, also while the next one has been prescribed.
+void GuidanceParticipant::memory(StateVisitor& state) {
+  const auto show = [this](StateVisitor& s) { guidance_->memory(s); };
+  if (state.loading() || !ahead_) {
+    ahead_ = false;
+    show(state);
+    return;
+  }
+  StateSnapshot now;
+  now.take(show);
+  before_.putBack(show);
+  show(state);
+  now.putBack(show);
+}
+
+/// The interface of its ITERATE is the level before.
+bool GuidanceParticipant::sameGuess(const Interface&, const Interface&) const { return true; }
 
 }  // namespace monarch_flight

@@ -13,6 +13,21 @@ void StateVisitor::operator()(const char* name, Interface& interface) {
   if (loading()) interface = interfaceOf(values);
 }
 
+void StateVisitor::operator()(const char* name, PrescribedState& prescribed) {
+  PrescribedValues values = prescribedValues(prescribed);
+  (*this)(name, values);
+  if (loading()) prescribed = prescribedOf(values);
+}
+
+void StateVisitor::operator()(const char* name, Loads& loads) {
+  Eigen::Matrix<double, 12, 1> values;
+  values << loads.force_pressure, loads.force_friction, loads.moment_pressure,
+      loads.moment_friction;
+  (*this)(name, values);
+  if (!loading()) return;
+  loads = {values.segment<3>(0), values.segment<3>(3), values.segment<3>(6), values.segment<3>(9)};
+}
+
 void StateSnapshot::Pass::numbers(const char* name, double* values, std::size_t count) {
   if (!loading_) {
     numbers_.insert(numbers_.end(), values, values + count);

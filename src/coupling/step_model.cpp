@@ -11,18 +11,11 @@ StepModel::StepModel(const CoupledModel& model, double length_scale)
   if (model.free.wing_pitch) wing_.emplace(model.insect, model.gravity, model.newmark);
 }
 
-void StepModel::begin(const Interface& committed, std::uint32_t step) {
+void StepModel::begin(const Interface& committed, const PrescribedState& prescribed,
+                      std::uint32_t step) {
   committed_ = committed;
+  prescribed_ = prescribed;
   step_ = step;
-  const PrescribedState state = model_.motion->at(model_.time(step));
-  prescribed_ = {state.body, state.angles.theta};
-  prescribed_angles_ = state.angles;
-}
-
-JointAngles StepModel::angles(const Coordinate& theta_R) const {
-  JointAngles angles = prescribed_angles_;
-  angles.theta = theta_R;
-  return angles;
 }
 
 CouplingVector StepModel::increments(const Interface& interface) const {
@@ -37,33 +30,38 @@ CouplingVector StepModel::increments(const Interface& interface) const {
 
 Interface StepModel::interface(const CouplingVector& increments) const {
   const CouplingVector a = increments.cwiseProduct(scales_);
-  Interface next = prescribed_;
+  Interface next = prescribed_.interface();
   next.body.a.x() = a(0);
   next.body.a.z() = a(1);
   next.body.pitch.qdd = a(2);
   next.theta_R.qdd = a(3);
   const Interface from = model_.departure(step_, committed_, next);
   next.body = advancedBody(from.body, prescribed_.body, model_.free, model_.newmark, a.head<3>());
-  next.theta_R =
-      model_.free.wing_pitch ? model_.newmark.advance(from.theta_R, a(3)) : prescribed_.theta_R;
+  next.theta_R = model_.free.wing_pitch ? model_.newmark.advance(from.theta_R, a(3))
+                                        : prescribed_.angles.theta;
   return next;
 }
 
 CouplingVector StepModel::residual(const CouplingVector& d, const Loads& loads) const {
   const Interface guess = interface(d);
-  const JointAngles guessed = angles(guess.theta_R);
+  const JointAngles guessed = prescribed_.anglesWith(guess.theta_R);
   const Interface from = model_.departure(step_, committed_, guess);
   Interface answer = guess;
   answer.body = flight_.step(from.body, prescribed_.body, guess.body, guessed, loads);
-  if (wing_) answer.theta_R = wing_->step(from.theta_R, answer.body, guessed, loads);
+  if (wing_) {
+    answer.theta_R =
+        wing_->step(from.theta_R, answer.body, guessed, loads, prescribed_.rest_angle);
+  }
   return increments(answer) - d;
 }
 
 void StepModel::airMotion(const CouplingVector& d, Vector6d& velocity,
                           Vector6d& acceleration) const {
   const Interface guess = interface(d);
-  const WingMotion motion = rightWingMotion(model_.insect, guess.body, angles(guess.theta_R));
-  velocity << motion.v_W - motion.R_IW.transpose() * model_.wind_I, motion.omega_W;
+  const WingMotion motion =
+      relativeTo(prescribed_.wind, rightWingMotion(model_.insect, guess.body,
+                                                   prescribed_.anglesWith(guess.theta_R)));
+  velocity << motion.v_W, motion.omega_W;
   acceleration << motion.a_W, motion.alpha_W;
 }
 

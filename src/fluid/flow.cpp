@@ -139,7 +139,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   if (step_.dt == 0) prepareStep();
   LapTimer timer(report_.kernel_s);
   next_.frame = next.R_IW;
-  next_.grid = gridVelocity(next, air_.wind_I);
+  next_.grid = gridVelocity(next);
   next_.wall = wallVelocity(next_.grid);
   next_.place = placeOf(next);
   momentum_.finish(vn_, convecting_, combined(1, next_.wall, -1, level_n_.wall, 0, next_.wall),

@@ -64,7 +64,7 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   }
   std::fill(p_.begin(), p_.end(), 0.0);
   level_n_.frame = motion.R_IW;
-  level_n_.grid = gridVelocity(motion, air_.wind_I);
+  level_n_.grid = gridVelocity(motion);
   level_n_.wall = wallVelocity(level_n_.grid);
   level_n_.place = placeOf(motion);
   known_ = nullptr;

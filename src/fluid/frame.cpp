@@ -4,9 +4,7 @@
 
 namespace monarch_flight {
 
-GridVelocity gridVelocity(const WingMotion& motion, const Eigen::Vector3d& wind_I) {
-  return {motion.v_W - motion.R_IW.transpose() * wind_I, motion.omega_W};
-}
+GridVelocity gridVelocity(const WingMotion& motion) { return {motion.v_W, motion.omega_W}; }
 
 WallVelocity wallVelocity(const GridVelocity& g) {
   WallVelocity w;

@@ -24,8 +24,8 @@ struct GridVelocity {
 
 /// Where the wing is: wing axes to inertial ones.
 Eigen::Isometry3d placeOf(const WingMotion& motion);
-/// v_g relative to the wind.
-GridVelocity gridVelocity(const WingMotion& motion, const Eigen::Vector3d& wind_I);
+/// v_g of the wing's motion.
+GridVelocity gridVelocity(const WingMotion& motion);
 /// v_g in the plane z = 0.
 WallVelocity wallVelocity(const GridVelocity& g);
 /// Same vector field, resolved in axes turned by Q (components_new = Q components_old).

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "monarch_flight/insect/insect.h"
+#include "monarch_flight/insect/prescribed_motion.h"
 #include "monarch_flight/math/rotation.h"
 
 namespace monarch_flight {
@@ -11,6 +12,12 @@ BodyState withPitch(BodyState body, const Coordinate& pitch) {
   body.Omega_B = Eigen::Vector3d(0.0, pitch.qd, 0.0);
   body.Omega_dot_B = Eigen::Vector3d(0.0, pitch.qdd, 0.0);
   return body;
+}
+
+WingMotion relativeTo(const Wind& wind, WingMotion motion) {
+  motion.v_W -= motion.R_IW.transpose() * wind.v;
+  motion.a_W -= motion.R_IW.transpose() * wind.a;
+  return motion;
 }
 
 Eigen::Matrix3d wingAttitude(double beta, const JointAngles& angles) {

@@ -16,6 +16,28 @@ Array3 array(const Coordinate& c) { return {{c.q, c.qd, c.qdd}}; }
 Eigen::Vector3d vector(const Array3& a) { return {a[0], a[1], a[2]}; }
 Coordinate coordinate(const Array3& a) { return {a[0], a[1], a[2]}; }
 
+JointMotion joint(const Coordinate& c) {
+  JointMotion out;
+  out.position = c.q;
+  out.velocity = c.qd;
+  out.acceleration = c.qdd;
+  return out;
+}
+
+Coordinate coordinate(const JointMotion& joint) {
+  return {joint.position, joint.velocity, joint.acceleration};
+}
+
+geometry_msgs::Vector3 vector3(const Eigen::Vector3d& v) {
+  geometry_msgs::Vector3 out;
+  out.x = v.x();
+  out.y = v.y();
+  out.z = v.z();
+  return out;
+}
+
+Eigen::Vector3d vector(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
+
 Array9 rowByRow(const Eigen::Matrix3d& R) {
   Array9 out;
   for (int i = 0; i < 9; ++i) out[i] = R(i / 3, i % 3);
@@ -102,11 +124,63 @@ Loads fromMessage(const WingLoads& loads) {
   return out;
 }
 
+PrescribedLevel toMessage(const PrescribedState& prescribed) {
+  PrescribedLevel out;
+  out.interface = toMessage(prescribed.interface());
+  out.phi = joint(prescribed.angles.phi);
+  out.psi = joint(prescribed.angles.psi);
+  out.theta_a = joint(prescribed.angles.theta_A);
+  out.rest_angle = prescribed.rest_angle;
+  out.wind = vector3(prescribed.wind.v);
+  out.wind_change = vector3(prescribed.wind.a);
+  return out;
+}
+
+PrescribedState fromMessage(const PrescribedLevel& prescribed) {
+  const Interface interface = fromMessage(prescribed.interface);
+  PrescribedState out;
+  out.body = interface.body;
+  out.angles = {coordinate(prescribed.phi), coordinate(prescribed.psi), interface.theta_R,
+                coordinate(prescribed.theta_a)};
+  out.rest_angle = prescribed.rest_angle;
+  out.wind = {vector(prescribed.wind), vector(prescribed.wind_change)};
+  return out;
+}
+
+WingbeatCommand toMessage(const WingbeatChange& change) {
+  WingbeatCommand out;
+  out.amplitude = change.amplitude;
+  out.flapping_mean = change.flapping_mean;
+  out.frequency = change.frequency;
+  out.deviation_mean = change.deviation_mean;
+  out.rest_angle = change.rest_angle;
+  out.abdomen_mean = change.abdomen_mean;
+  out.abdomen_amplitude = change.abdomen_amplitude;
+  return out;
+}
+
+WingbeatChange fromMessage(const WingbeatCommand& command) {
+  return {command.amplitude,    command.flapping_mean, command.frequency, command.deviation_mean,
+          command.rest_angle,   command.abdomen_mean,  command.abdomen_amplitude};
+}
+
+GuidanceState toMessage(const GuidanceReport& report) {
+  GuidanceState out;
+  out.command = toMessage(report.command);
+  out.applied = toMessage(report.applied);
+  out.phase = report.phase;
+  out.clipped = report.clipped;
+  out.refused = report.refused;
+  out.lost = report.lost;
+  return out;
+}
+
 ParticipantRequest toMessage(const Request& request) {
   ParticipantRequest out;
   out.protocol = kProtocolVersion;
   out.key = toMessage(request.key);
   out.t = request.t;
+  out.prescribed = toMessage(request.prescribed);
   out.interface = toMessage(request.interface);
   out.loads = toMessage(request.loads);
   out.want_operator = request.want_operator;
@@ -119,6 +193,7 @@ Request fromMessage(const ParticipantRequest& request) {
   Request out;
   out.key = fromMessage(request.key);
   out.t = request.t;
+  out.prescribed = fromMessage(request.prescribed);
   out.interface = fromMessage(request.interface);
   out.loads = fromMessage(request.loads);
   out.want_operator = request.want_operator;
@@ -132,6 +207,9 @@ ParticipantReply toMessage(const Reply& reply) {
   out.protocol = kProtocolVersion;
   out.key = toMessage(reply.key);
   out.interface = toMessage(reply.interface);
+  if (reply.prescribed) out.prescribed.push_back(toMessage(*reply.prescribed));
+  if (reply.command) out.command.push_back(toMessage(*reply.command));
+  out.lost = reply.guidance.lost;
   out.loads = toMessage(reply.loads);
   out.courant = reply.report.courant;
   out.divergence = reply.report.divergence;
@@ -179,6 +257,9 @@ Reply fromMessage(const ParticipantReply& reply) {
   Reply out;
   out.key = fromMessage(reply.key);
   out.interface = fromMessage(reply.interface);
+  if (!reply.prescribed.empty()) out.prescribed = fromMessage(reply.prescribed.front());
+  if (!reply.command.empty()) out.command = fromMessage(reply.command.front());
+  out.guidance.lost = reply.lost;
   out.loads = fromMessage(reply.loads);
   out.report.courant = reply.courant;
   out.report.divergence = reply.divergence;
@@ -262,6 +343,8 @@ std::string problem(const ParticipantReply& reply) {
   if (kernels != 0 && kernels != kKernels) {
     return "times of " + std::to_string(kernels) + " kernels, not " + std::to_string(kKernels);
   }
+  if (std::max(reply.prescribed.size(), reply.command.size()) > 1)
+    return "more than one prescribed level or command";
   if (reply.flow.size() > 1) return std::to_string(reply.flow.size()) + " flows, at most one fits";
   for (const WholeFlow& flow : reply.flow) {
     std::string misfit = problem(flow);

@@ -7,12 +7,13 @@
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
 #include "monarch_flight/ros_io/ros_output.h"
+#include "monarch_flight/run/federation.h"
 
 namespace monarch_flight {
 namespace {
 
 const ros::WallDuration kHeldWait(0.01);  // of a held run, for messages; then it looks for orders
-constexpr Role kRoles[] = {Role::kFluid, Role::kFlight, Role::kWing};
+constexpr Role kSolvers[] = {Role::kFluid, Role::kFlight, Role::kWing};
 
 std::uint64_t randomRunId() {
   std::random_device random;
@@ -34,16 +35,16 @@ CoordinatorNode::CoordinatorNode(const StopFlag& stop)
   if (Token::fromEnvironment().empty()) {
     ROS_WARN("%s is not set: every node of this master can take part in the run", Token::kVariable);
   }
-  for (Role role : kRoles) {
+  for (Role role : kSolvers) {
     const LockstepIdentity identity{role, case_.name, case_.sha256, Token::fromEnvironment()};
-    participants_[static_cast<std::size_t>(role)] =
+    solvers_[static_cast<std::size_t>(role)] =
         std::make_unique<RosParticipant>(node_, identity, run_);
   }
 }
 
 int CoordinatorNode::run() {
   try {
-    for (const auto& participant : participants_) participant->connect();
+    for (const auto& participant : solvers_) participant->connect();
     const int code = fly();
     reportIgnored();
     ros::WallDuration(0.2).sleep();  // the last messages are still on their way to the listeners
@@ -62,17 +63,19 @@ int CoordinatorNode::fly() {
   FlightControl control(
       node_, case_, parameters_.paused, [this] { keepAlive(); }, stop_);
   run.addSink(control);
-  return run.fly(run_.id, *participants_[0], *participants_[1], *participants_[2], control, stop_);
+  const auto guidance = makeParticipant(Role::kGuidance, case_, checkpointFolder(out));
+  return run.fly(run_.id, {solvers_[0].get(), solvers_[1].get(), solvers_[2].get(), guidance.get()},
+                 control, stop_);
 }
 
 void CoordinatorNode::keepAlive() {
   run_.queue.callAvailable(kHeldWait);
-  participants_[0]->requireEveryone(" while the run is held");
-  participants_[0]->greetEveryone();
+  solvers_[0]->requireEveryone(" while the run is held");
+  solvers_[0]->greetEveryone();
 }
 
 void CoordinatorNode::dismiss() noexcept {
-  for (const auto& participant : participants_) {
+  for (const auto& participant : solvers_) {
     try {
       Request farewell;
       farewell.key.run = run_.id;
@@ -84,7 +87,7 @@ void CoordinatorNode::dismiss() noexcept {
 }
 
 void CoordinatorNode::reportIgnored() const {
-  for (const auto& participant : participants_) {
+  for (const auto& participant : solvers_) {
     const IgnoredMessages counters = participant->ignored();
     if (counters.total() > 0) {
       ROS_INFO("messages of %s that were ignored: %s", participant->name().c_str(),

@@ -74,7 +74,8 @@ diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep
   solvers.values = {
       entry("Courant number", step.fluid.courant), entry("divergence", step.fluid.divergence),
       entry("fluid [s]", step.wall_s[0]),          entry("flight [s]", step.wall_s[1]),
-      entry("wing [s]", step.wall_s[2]),           entry("exchange [s]", step.exchange_s)};
+      entry("wing [s]", step.wall_s[2]),           entry("guidance [s]", step.wall_s[3]),
+      entry("exchange [s]", step.exchange_s)};
   diagnostic_msgs::DiagnosticArray out;
   out.header.stamp = stamp;
   out.status = {coupling, solvers, messages(step.ignored)};

@@ -100,6 +100,9 @@ FlightState flightState(const CommittedStep& step, const ros::Time& stamp) {
   out.phi = triple(step.angles.phi);
   out.psi = triple(step.angles.psi);
   out.theta_a = triple(step.angles.theta_A);
+  out.rest_angle = step.guided.rest_angle;
+  out.wind = toVector3(step.guided.wind.v);
+  out.guidance = toMessage(step.guidance);
   out.loads = toMessage(step.loads);
   for (int i = 0; i < 3; ++i) out.force[i] = step.force_I[i];
   out.sub_iterations = static_cast<std::uint32_t>(step.iterations.size());

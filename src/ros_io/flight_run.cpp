@@ -52,15 +52,14 @@ void FlightRun::tell() const {
     std::cout << "changed since then: " << change << std::endl;
 }
 
-int FlightRun::fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
-                   RunControl& control, const StopFlag& stop) {
+int FlightRun::fly(std::uint64_t run_id, const Participants& participants, RunControl& control,
+                   const StopFlag& stop) {
   std::vector<StepSink*> sinks = {&progress_};
   if (messages_) sinks.push_back(messages_.get());
   if (fields_) sinks.push_back(fields_.get());
   sinks.push_back(&files_);  // the summary knows of the failures of those before it
   sinks.insert(sinks.end(), last_.begin(), last_.end());
-  const RunResult result = runCase(case_, run_id, fluid, flight, wing, sinks, control,
-                                   &checkpoints_);
+  const RunResult result = runCase(case_, run_id, participants, sinks, control, &checkpoints_);
   if (result.complete) {
     std::cout << "flight complete: " << files_.directory().path() << std::endl;
     return kExitComplete;

@@ -116,8 +116,7 @@ int inProcessMain(int argc, char** argv) {
     FlightRun run(c, out, !parameters.resume.empty(), parameters.ranks, {});
     InProcessFederation federation(c, checkpointFolder(out));
     FlyUntil control(stop_requested);
-    return run.fly(1, federation.participant(Role::kFluid), federation.participant(Role::kFlight),
-                   federation.participant(Role::kWing), control, stop_requested);
+    return run.fly(1, federation.participants(), control, stop_requested);
   });
 }
 

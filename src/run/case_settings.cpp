@@ -29,7 +29,7 @@ void readFluid(Section section, Case& c) {
   c.air.rho = section.number("density", {Bound::kPositive, "kg/m3", "air at 15 C has 1.225"});
   c.air.mu = section.number("viscosity", {Bound::kPositive, "Pa s", "air at 15 C has 1.8e-5"});
   c.gravity = section.number("gravity", {Bound::kNonNegative, "m/s2", "9.81, or 0 for none"});
-  c.air.wind_I = section.vector3("wind", "m/s");
+  c.wind_I = section.vector3("wind", "m/s");
   section.finish();
 }
 

@@ -59,11 +59,9 @@ std::unique_ptr<FluidModel> makeFluid(const Case& c) {
 
 CoupledModel makeModel(const Case& c) {
   CoupledModel model{c.insect};
-  model.motion = c.motion;
   model.free = c.free;
   model.newmark.dt = c.time.dt;
   model.gravity = c.gravity;
-  model.wind_I = c.air.wind_I;
   model.t_start = c.time.t_start;
   model.steps = c.time.steps;
   if (!c.coupling.accelerations_known) {
@@ -76,6 +74,10 @@ CoupledModel makeModel(const Case& c) {
   return model;
 }
 
+std::unique_ptr<Guidance> makeGuidance(const Case& c) {
+  return std::make_unique<MotionGuidance>(c.motion, c.wind_I);
+}
+
 std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
                                              const std::string& checkpoints) {
   const CoupledModel model = makeModel(c);
@@ -83,14 +85,15 @@ std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
   if (role == Role::kFluid) solver = std::make_unique<FluidParticipant>(model, makeFluid(c));
   if (role == Role::kFlight) solver = std::make_unique<FlightParticipant>(model);
   if (role == Role::kWing) solver = std::make_unique<WingParticipant>(model);
+  if (role == Role::kGuidance)
+    solver = std::make_unique<GuidanceParticipant>(model, makeGuidance(c));
   return std::make_unique<KeptParticipant>(role, std::move(solver), checkpoints);
 }
 
-RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
-                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control,
-                  Keeper* keeper) {
+RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& participants,
+                  const std::vector<StepSink*>& sinks, RunControl& control, Keeper* keeper) {
   SinkChain chain(sinks);
-  Coordinator coordinator(makeModel(c), c.coupling, fluid, flight, wing, run_id);
+  Coordinator coordinator(makeModel(c), c.coupling, participants, run_id);
   const CoupledOutcome outcome = coordinator.run({&chain}, control, keeper);
   RunResult result;
   result.failure = chain.failure().empty() ? outcome.failure : chain.failure();
@@ -100,15 +103,20 @@ RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Parti
 
 InProcessFederation::InProcessFederation(const Case& c, const std::string& checkpoints)
     : case_(c) {
-  for (Role role : {Role::kFluid, Role::kFlight, Role::kWing})
-    participants_[static_cast<std::size_t>(role)] = makeParticipant(role, c, checkpoints);
+  for (std::size_t i = 0; i < kRoles; ++i)
+    participants_[i] = makeParticipant(static_cast<Role>(i), c, checkpoints);
 }
 
 RunResult InProcessFederation::run(std::uint64_t run_id, const std::vector<StepSink*>& sinks,
                                    const StopFlag& stop, Keeper* keeper) {
   FlyUntil control(stop);
-  return runCase(case_, run_id, *participants_[0], *participants_[1], *participants_[2], sinks,
-                 control, keeper);
+  return runCase(case_, run_id, participants(), sinks, control, keeper);
+}
+
+Participants InProcessFederation::participants() {
+  Participants all;
+  for (std::size_t i = 0; i < kRoles; ++i) all[i] = participants_[i].get();
+  return all;
 }
 
 }  // namespace monarch_flight

@@ -200,6 +200,7 @@ std::string Summary::json(const std::string& failure) const {
                  {"fluid", wall_[0]},
                  {"flight", wall_[1]},
                  {"wing", wall_[2]},
+                 {"guidance", wall_[3]},
                  {"exchange", exchange_},
                  {"coupling", coupling_},
                  {"outputs", outputs_}};

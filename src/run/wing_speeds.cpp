@@ -36,7 +36,7 @@ WingSpeeds peakWingSpeeds(const Case& c, double duration) {
   for (std::uint32_t i = 0; i <= intervals; ++i) {
     const PrescribedState state = c.motion->at(c.time.t_start + duration * i / intervals);
     const WingMotion wing = rightWingMotion(c.insect, state.body, state.angles);
-    const Eigen::Vector3d root = wing.v_W - wing.R_IW.transpose() * c.air.wind_I;
+    const Eigen::Vector3d root = wing.v_W - wing.R_IW.transpose() * c.wind_I;
     peak.root = std::max(peak.root, root.norm());
     for (const Eigen::Vector3d& point : points) {
       peak.outline = std::max(peak.outline, (root + wing.omega_W.cross(point)).norm());

@@ -25,15 +25,16 @@ double WingPitchSolver::momentWithoutSpring(const BodyState& body, JointAngles a
 }
 
 double WingPitchSolver::acceleration(const BodyState& body, const JointAngles& angles,
-                                     const Loads& loads) const {
-  const double spring = -insect_.kappa * (angles.theta.q - insect_.theta_0);
+                                     const Loads& loads, double rest_angle) const {
+  const double spring = -insect_.kappa * (angles.theta.q - (insect_.theta_0 + rest_angle));
   return (momentWithoutSpring(body, angles, loads) + spring) / insect_.right.J(1, 1);
 }
 
 Coordinate WingPitchSolver::step(const Coordinate& n, const BodyState& body,
-                                 const JointAngles& angles, const Loads& loads) const {
+                                 const JointAngles& angles, const Loads& loads,
+                                 double rest_angle) const {
   const double unaccelerated = newmark_.advance(n, 0.0).q;
-  const double spring = -insect_.kappa * (unaccelerated - insect_.theta_0);
+  const double spring = -insect_.kappa * (unaccelerated - (insect_.theta_0 + rest_angle));
   const double stiffness = insect_.kappa * newmark_.beta * newmark_.dt * newmark_.dt;
   return newmark_.advance(
       n, (momentWithoutSpring(body, angles, loads) + spring) / (insect_.right.J(1, 1) + stiffness));

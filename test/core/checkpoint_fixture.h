@@ -89,8 +89,7 @@ class Checkpointed : public CaseTest {
     RunOutputs files(c, out(name), &checkpoints);
     Meddler meddler(std::move(act));
     InProcessFederation solvers(c, checkpointFolder(out(name)));
-    return runCase(c, 1, solvers.participant(Role::kFluid), solvers.participant(Role::kFlight),
-                   solvers.participant(Role::kWing), {&files, &meddler}, control, &checkpoints);
+    return runCase(c, 1, solvers.participants(), {&files, &meddler}, control, &checkpoints);
   }
   /// Flies in a process of its own, which is killed behind a step as by a power cut.
   void flyAndKill(const Case& c, const std::string& name, std::uint32_t step,

@@ -80,11 +80,11 @@ TEST_F(Coordination, RunsAreRepeatableBitForBit) {
 
 TEST_F(Coordination, PrescribedStartTakesOneEvaluationAStep) {
   ASSERT_TRUE(f_.run().complete);
-  EXPECT_TRUE(same(f_.sink.steps[0].interface, f_.model.prescribed(f_.model.t_start)));
+  EXPECT_TRUE(same(f_.sink.steps[0].interface, f_.prescribed(f_.model.t_start)));
   for (std::uint32_t i = 1; i <= 10; ++i) {
     const CommittedStep& step = f_.sink.steps[i];
     EXPECT_EQ(step.iterations.size(), 1u);
-    EXPECT_TRUE(same(step.interface, f_.model.prescribed(f_.model.time(i))));
+    EXPECT_TRUE(same(step.interface, f_.prescribed(f_.model.time(i))));
     EXPECT_GT(step.loads.force().norm(), 0.0);
   }
   EXPECT_GT(f_.sink.steps[11].iterations.size(), 1u);
@@ -97,7 +97,7 @@ TEST_F(Coordination, NothingFreeFollowsTheMotion) {
   EXPECT_EQ(tethered.air->evaluations, 30);
   for (const CommittedStep& step : tethered.sink.steps) {
     EXPECT_TRUE(step.prescribed);
-    EXPECT_TRUE(same(step.interface, f_.model.prescribed(step.t)));
+    EXPECT_TRUE(same(step.interface, f_.prescribed(step.t)));
     EXPECT_EQ(step.t, f_.model.time(step.step));
   }
 }
@@ -107,7 +107,7 @@ TEST_F(Coordination, OnlyWhatIsFreeMoves) {
   Federation partly(f_.model, f_.settings, monarchAir(1.0));
   ASSERT_TRUE(partly.run().complete);
   const CommittedStep& last = partly.sink.steps.back();
-  const Interface prescribed = f_.model.prescribed(last.t);
+  const Interface prescribed = f_.prescribed(last.t);
   EXPECT_EQ(last.interface.body.x.x(), prescribed.body.x.x());
   EXPECT_EQ(last.interface.body.R_IB, prescribed.body.R_IB);
   EXPECT_NE(last.interface.body.x.z(), prescribed.body.x.z());
@@ -295,7 +295,7 @@ TEST_F(Coordination, BadModelAndSettingsAreRefusedTogether) {
   f_.model.newmark.beta = 0.0;
   f_.settings.tolerance = -1.0;
   try {
-    Coordinator(f_.model, f_.settings, *f_.fluid, *f_.flight, *f_.wing, 1);
+    Coordinator(f_.model, f_.settings, f_.participants(), 1);
     FAIL();
   } catch (const InputError& e) {
     const std::string what = e.what();

@@ -111,7 +111,6 @@ class SineFlapping : public PrescribedMotion {
 
 inline CoupledModel coupledModel(const FreeCoordinates& free, std::uint32_t steps) {
   CoupledModel model{publishedMonarch()};
-  model.motion = std::make_shared<SineFlapping>();
   model.free = free;
   model.newmark.dt = 1e-4;
   model.steps = steps;
@@ -170,13 +169,17 @@ class KeepingSink : public StepSink {
 /// A coupled run in one process, everything within reach.
 struct Federation {
   Federation(const CoupledModel& model_in, const CouplingSettings& settings_in,
-             const LinearAir& air_in)
-      : model(model_in), settings(settings_in) {
+             const LinearAir& air_in,
+             std::shared_ptr<const PrescribedMotion> motion_in = std::make_shared<SineFlapping>())
+      : model(model_in), settings(settings_in), motion(std::move(motion_in)) {
     auto owned = std::make_unique<LinearAir>(air_in);
     air = owned.get();
     fluid_solver = std::make_unique<FluidParticipant>(model, std::move(owned));
     flight_solver = std::make_unique<FlightParticipant>(model);
     wing_solver = std::make_unique<WingParticipant>(model);
+    guidance_solver = std::make_unique<GuidanceParticipant>(
+        model, std::make_unique<MotionGuidance>(motion));
+    guidance = std::make_unique<Recorder>(*guidance_solver);
     fluid = std::make_unique<Recorder>(*fluid_solver);
     flight = std::make_unique<Recorder>(*flight_solver);
     wing = std::make_unique<Recorder>(*wing_solver);
@@ -186,13 +189,20 @@ struct Federation {
     return run(control);
   }
   CoupledOutcome run(RunControl& control) {
-    return Coordinator(model, settings, *fluid, *flight, *wing, 7).run({&sink}, control);
+    return Coordinator(model, settings, participants(), 7).run({&sink}, control);
   }
+  Participants participants() {
+    return {fluid.get(), flight.get(), wing.get(), guidance.get()};
+  }
+  /// Everything as guidance prescribes it.
+  Interface prescribed(double t) const { return motion->at(t).interface(); }
+
   CoupledModel model;
   CouplingSettings settings;
+  std::shared_ptr<const PrescribedMotion> motion;
   LinearAir* air;
-  std::unique_ptr<Participant> fluid_solver, flight_solver, wing_solver;
-  std::unique_ptr<Recorder> fluid, flight, wing;
+  std::unique_ptr<Participant> fluid_solver, flight_solver, wing_solver, guidance_solver;
+  std::unique_ptr<Recorder> fluid, flight, wing, guidance;
   KeepingSink sink;
   StopFlag stop{false};
 };

@@ -22,8 +22,8 @@ class Monolith {
       : model_(model), air_(air), dynamics_(model.insect, model.gravity) {}
 
   Interface step(const Interface& n, double t_n, double t) const {
-    const Vector6d velocity_n =
-        LinearAir::velocity(rightWingMotion(model_.insect, n.body, model_.angles(t_n, n.theta_R)));
+    const Vector6d velocity_n = LinearAir::velocity(
+        rightWingMotion(model_.insect, n.body, motion_.at(t_n).anglesWith(n.theta_R)));
     Eigen::Vector4d a(n.body.a.x(), n.body.a.z(), n.body.pitch.qdd, n.theta_R.qdd);
     for (int newton = 0; newton < 6; ++newton) {
       const Eigen::Vector4d r = residual(n, velocity_n, t, a);
@@ -41,7 +41,7 @@ class Monolith {
 
  private:
   Interface at(const Interface& n, double t, const Eigen::Vector4d& a) const {
-    Interface next = model_.prescribed(t);
+    Interface next = motion_.at(t).interface();
     next.body = advancedBody(n.body, next.body, model_.free, model_.newmark, a.head<3>());
     next.theta_R = model_.newmark.advance(n.theta_R, a(3));
     return next;
@@ -49,7 +49,7 @@ class Monolith {
   Eigen::Vector4d residual(const Interface& n, const Vector6d& velocity_n, double t,
                            const Eigen::Vector4d& a) const {
     const Interface next = at(n, t, a);
-    const JointAngles angles = model_.angles(t, next.theta_R);
+    const JointAngles angles = motion_.at(t).anglesWith(next.theta_R);
     const Loads loads = air_.law(velocity_n, rightWingMotion(model_.insect, next.body, angles));
     const InsectMotion motion = insectMotion(model_.insect.beta, next.body, angles);
     Vector15d rest = dynamics_.inertialForce(motion) - dynamics_.gravityForce(motion) -
@@ -58,6 +58,7 @@ class Monolith {
     return {rest(0), rest(2), rest(4), rest(7)};
   }
   CoupledModel model_;
+  testing::SineFlapping motion_;
   const LinearAir& air_;
   MultibodyDynamics dynamics_;
 };
@@ -98,7 +99,7 @@ TEST_P(AddedMass, FlightIsTheMonolithicOne) {
         << "step " << step;
   }
   // It has flown: the coordinates are far from the prescribed ones.
-  const Interface prescribed = f.model.prescribed(f.model.time(200));
+  const Interface prescribed = f.prescribed(f.model.time(200));
   EXPECT_GT(std::abs(exact.theta_R.q - prescribed.theta_R.q), 0.05);
   EXPECT_GT(std::abs(exact.body.pitch.q - prescribed.body.pitch.q), 0.005);
 }

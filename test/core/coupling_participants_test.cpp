@@ -19,7 +19,8 @@ Request request(const CoupledModel& model, Phase phase, std::uint32_t step,
   Request r;
   r.key = {kRun, step, iteration, phase};
   r.t = model.time(step);
-  r.interface = model.prescribed(r.t);
+  r.prescribed = testing::SineFlapping().at(r.t);
+  r.interface = r.prescribed.interface();
   return r;
 }
 
@@ -27,9 +28,9 @@ Loads someLoads() {
   return {{1e-4, 0.0, -5e-3}, {1e-5, 2e-5, 0.0}, {1e-4, 2e-5, 0.0}, {0.0, 0.0, 1e-6}};
 }
 
-class Participants : public ::testing::Test {
+class SolverParticipants : public ::testing::Test {
  protected:
-  Participants()
+  SolverParticipants()
       : f_(testing::coupledModel(kAllFree, 10), testing::couplingSettings(),
            testing::monarchAir(1.0)) {}
   Request make(Phase phase, std::uint32_t step, std::uint32_t iteration) const {
@@ -49,7 +50,7 @@ class Participants : public ::testing::Test {
   Federation f_;
 };
 
-TEST_F(Participants, SameRequestGetsTheSameAnswerBitForBit) {
+TEST_F(SolverParticipants, SameRequestGetsTheSameAnswerBitForBit) {
   startAll();
   for (Participant* p : all()) {
     Request r = make(Phase::kIterate, 1, 0);
@@ -63,7 +64,7 @@ TEST_F(Participants, SameRequestGetsTheSameAnswerBitForBit) {
   EXPECT_EQ(f_.air->evaluations, 1);
 }
 
-TEST_F(Participants, IterationsLeaveNoTrace) {
+TEST_F(SolverParticipants, IterationsLeaveNoTrace) {
   startAll();
   for (Participant* p : all()) {
     Request r = make(Phase::kIterate, 1, 0), other = make(Phase::kIterate, 1, 1);
@@ -80,7 +81,7 @@ TEST_F(Participants, IterationsLeaveNoTrace) {
   }
 }
 
-TEST_F(Participants, AnswersAreTheSolversOwn) {
+TEST_F(SolverParticipants, AnswersAreTheSolversOwn) {
   startAll();
   Request r = make(Phase::kIterate, 1, 0);
   r.loads = someLoads();
@@ -99,7 +100,7 @@ TEST_F(Participants, AnswersAreTheSolversOwn) {
   EXPECT_TRUE(same(Interface{turned.interface.body, r.interface.theta_R}, r.interface));
 }
 
-TEST_F(Participants, CommitKeepsTheAnsweredGuess) {
+TEST_F(SolverParticipants, CommitKeepsTheAnsweredGuess) {
   startAll();
   for (Participant* p : all()) {
     Request r = make(Phase::kIterate, 1, 4);
@@ -113,7 +114,7 @@ TEST_F(Participants, CommitKeepsTheAnsweredGuess) {
   EXPECT_EQ(f_.air->commits, 1);
 }
 
-TEST_F(Participants, CommitWithoutIterateIsRefused) {
+TEST_F(SolverParticipants, CommitWithoutIterateIsRefused) {
   startAll();
   for (Participant* p : all()) {
     expectRefused(*p, make(Phase::kCommit, 1, 0), "not the ITERATE of this iteration");
@@ -121,7 +122,7 @@ TEST_F(Participants, CommitWithoutIterateIsRefused) {
   EXPECT_EQ(f_.air->commits, 0);
 }
 
-TEST_F(Participants, CommitOfAnotherIterationOrInterfaceIsRefused) {
+TEST_F(SolverParticipants, CommitOfAnotherIterationOrInterfaceIsRefused) {
   startAll();
   for (Participant* p : all()) {
     ASSERT_EQ(p->exchange(make(Phase::kIterate, 1, 3)).error, "");
@@ -135,7 +136,7 @@ TEST_F(Participants, CommitOfAnotherIterationOrInterfaceIsRefused) {
   }
 }
 
-TEST_F(Participants, WrongKeysAreRefused) {
+TEST_F(SolverParticipants, WrongKeysAreRefused) {
   for (Participant* p : all()) {
     expectRefused(*p, make(Phase::kIterate, 1, 0), "no run has been started");
     expectRefused(*p, make(Phase::kStart, 1, 0), "starts with step 0");
@@ -152,7 +153,7 @@ TEST_F(Participants, WrongKeysAreRefused) {
   }
 }
 
-TEST_F(Participants, AbortEndsTheRunAndStartBeginsAnother) {
+TEST_F(SolverParticipants, AbortEndsTheRunAndStartBeginsAnother) {
   startAll();
   for (Participant* p : all()) {
     EXPECT_EQ(p->exchange(make(Phase::kAbort, 0, 0)).error, "");
@@ -166,7 +167,7 @@ TEST_F(Participants, AbortEndsTheRunAndStartBeginsAnother) {
   }
 }
 
-TEST_F(Participants, NonFiniteRequestsAreRefusedByName) {
+TEST_F(SolverParticipants, NonFiniteRequestsAreRefusedByName) {
   startAll();
   const char* names[3] = {
       "fluid, step 1, iteration 3, ITERATE: ", "flight, step 1, iteration 3, ITERATE: ",
@@ -181,7 +182,7 @@ TEST_F(Participants, NonFiniteRequestsAreRefusedByName) {
   }
 }
 
-TEST_F(Participants, FailureOfASolverIsReportedAndNotCommitted) {
+TEST_F(SolverParticipants, FailureOfASolverIsReportedAndNotCommitted) {
   startAll();
   f_.air->fail = [](int n) {
     if (n == 2) throw NumericalError("the air broke");
@@ -197,18 +198,17 @@ TEST_F(Participants, FailureOfASolverIsReportedAndNotCommitted) {
   EXPECT_EQ(fluid.exchange(r).error, "");
 }
 
-TEST_F(Participants, MotionThatDoesNotReachIsReported) {
+TEST_F(SolverParticipants, MotionThatDoesNotReachIsReported) {
   auto motion = std::make_shared<testing::SineFlapping>();
   motion->last = f_.model.time(1);
-  f_.model.motion = motion;
-  FlightParticipant flight(f_.model);
-  ASSERT_EQ(flight.exchange(make(Phase::kStart, 0, 0)).error, "");
+  GuidanceParticipant guidance(f_.model, std::make_unique<MotionGuidance>(motion));
+  ASSERT_EQ(guidance.exchange(make(Phase::kStart, 0, 0)).error, "");
   Request r = make(Phase::kIterate, 1, 0);
   r.t = motion->last + 1.0;
-  expectRefused(flight, r, "motion ends at");
+  expectRefused(guidance, r, "motion ends at");
 }
 
-TEST_F(Participants, FluidTellsOfItselfAtTheStartAndShowsFieldsOnDemand) {
+TEST_F(SolverParticipants, FluidTellsOfItselfAtTheStartAndShowsFieldsOnDemand) {
   f_.model.q_threshold = 5.0;
   auto air = std::make_unique<testing::LinearAir>(testing::monarchAir(1.0));
   FluidParticipant fluid(f_.model, std::move(air));

@@ -233,31 +233,33 @@ TEST(Balance, WorkOfTheAirIsTheSameOnBothSides) {
 TEST(Balance, AMotionThatTheStructureDoesNotShareShowsInTheWork) {
   const CoupledModel model = testing::coupledModel(kAllFree, 1);
   const InterfaceBalance balance(model);
-  const Interface seen = model.prescribed(0.03);
+  const PrescribedState prescribed = testing::SineFlapping().at(0.03);
+  const Interface seen = prescribed.interface();
   Interface answered = seen;
   answered.theta_R.qd += 2.0;
   Loads loads;
   loads.moment_pressure = Eigen::Vector3d(0.0, 3e-5, 0.0);
-  const InterfacePower power = balance.power(0.03, seen, answered, loads);
+  const InterfacePower power = balance.power(prescribed, seen, answered, loads);
   EXPECT_NEAR(power.structure - power.fluid, 6e-5, 1e-12);
 }
 
 TEST(Balance, RatioOfOneHingeIsThatOfItsTwoInertias) {
   CoupledModel model = testing::coupledModel({false, false, false, true}, 1);
   const InterfaceBalance balance(model);
+  const PrescribedState prescribed = testing::SineFlapping().at(0.03);
+  const Interface level = prescribed.interface();
   Matrix6d M = Matrix6d::Zero();
   M(4, 4) = 5.0 * model.insect.right.J(1, 1);
-  EXPECT_NEAR(balance.addedMassRatio(0.03, model.prescribed(0.03), M), 5.0, 1e-12);
+  EXPECT_NEAR(balance.addedMassRatio(prescribed, level, M), 5.0, 1e-12);
   model.free = {};
-  EXPECT_EQ(InterfaceBalance(model).addedMassRatio(0.03, model.prescribed(0.03), M), 0.0);
+  EXPECT_EQ(InterfaceBalance(model).addedMassRatio(prescribed, level, M), 0.0);
   // Whole insect, falling: the air that both wings carry along over the mass of everything.
   model.free = {false, true, false, false};
-  const Interface level = model.prescribed(0.03);
   M = Matrix6d::Identity();
   const double mass = MultibodyDynamics(model.insect, 9.81)
                           .inertia(insectMotion(model.insect.beta, level.body,
-                                                model.angles(0.03, level.theta_R)))(2, 2);
-  EXPECT_NEAR(InterfaceBalance(model).addedMassRatio(0.03, level, M), 2.0 / mass, 1e-9 / mass);
+                                                prescribed.angles))(2, 2);
+  EXPECT_NEAR(InterfaceBalance(model).addedMassRatio(prescribed, level, M), 2.0 / mass, 1e-9 / mass);
 }
 
 TEST(StepModel, IsTheParticipantsOwnAnswer) {
@@ -266,7 +268,7 @@ TEST(StepModel, IsTheParticipantsOwnAnswer) {
   ASSERT_TRUE(f.run().complete);
   StepModel copy(model, f.settings.length_scale);
   const CommittedStep& before = f.sink.steps[24];
-  copy.begin(before.interface, 25);
+  copy.begin(before.interface, f.sink.steps[25].guided, 25);
   const CommittedStep& step = f.sink.steps[25];
   const CouplingVector d = copy.increments(step.interface);
   EXPECT_LT(distance(copy.interface(d), step.interface), 1e-15);

@@ -72,14 +72,14 @@ TEST(NavierStokes, UniformStreamSurvivesAFullTurn) {
 
 TEST(NavierStokes, AWindIsAMovingFrame) {
   const Planform wing = Planform::rectangle(1, 1.5, 0.25);
-  Air windy = thinAir();
-  windy.wind_I = Vector3d(0.4, -0.3, 0.2);
   const auto still = makeNavierStokes(wing, thinAir(), smallGrid());
-  const auto blown = makeNavierStokes(wing, windy, smallGrid());
-  auto carried = [&](double t) {
+  const auto blown = makeNavierStokes(wing, thinAir(), smallGrid());
+  auto carried = [&](double t) {  // by a wind that rises
+    const Wind wind{Vector3d(0.4, -0.3, 0.2) * t / 0.01, Vector3d(0.4, -0.3, 0.2) / 0.01};
     WingMotion m = flapping(t);
-    m.v_W += m.R_IW.transpose() * windy.wind_I;
-    return m;
+    m.v_W += m.R_IW.transpose() * wind.v;
+    m.a_W += m.R_IW.transpose() * wind.a;
+    return relativeTo(wind, m);
   };
   still->start(flapping(0), 0.01);
   blown->start(carried(0), 0.01);

@@ -83,20 +83,21 @@ TEST(QuasiSteadyTranslation, LoadsHaveNoStepAnywhereOnTheCircle) {
 }
 
 TEST(QuasiSteadyTranslation, NothingOnAWingThatMovesWithTheWind) {
-  Air windy = air();
-  windy.wind_I = Vector3d(1.2, -0.4, 0.7);
-  const auto model = makeQuasiSteady(Planform::ellipse(0.03, 0.06, 0.3), windy, kSane);
+  const Wind wind{Vector3d(1.2, -0.4, 0.7), Vector3d(20.0, 3.0, -8.0)};  // which rises
+  const auto model = makeQuasiSteady(Planform::ellipse(0.03, 0.06, 0.3), air(), kSane);
   WingMotion m;
   m.R_IW = expSO3(Vector3d(0.3, -0.8, 0.2));
-  m.v_W = m.R_IW.transpose() * windy.wind_I;
-  EXPECT_EQ(wrench(loadsOf(*model, m)).norm(), 0.0);
-  m.v_W.setZero();  // at rest in the wind: as if flown against it in still air
-  const auto still = makeQuasiSteady(Planform::ellipse(0.03, 0.06, 0.3), air(), kSane);
+  m.v_W = m.R_IW.transpose() * wind.v;
+  m.a_W = m.R_IW.transpose() * wind.a;
+  EXPECT_EQ(wrench(loadsOf(*model, relativeTo(wind, m))).norm(), 0.0);
+  m.v_W.setZero();  // held in the wind: as if flown against it in still air
+  m.a_W.setZero();
   WingMotion flown = m;
-  flown.v_W = -(m.R_IW.transpose() * windy.wind_I);
-  const Vector6d w = wrench(loadsOf(*model, m));
+  flown.v_W = -(m.R_IW.transpose() * wind.v);
+  flown.a_W = -(m.R_IW.transpose() * wind.a);
+  const Vector6d w = wrench(loadsOf(*model, relativeTo(wind, m)));
   EXPECT_GT(w.norm(), 0.0);
-  EXPECT_LT((w - wrench(loadsOf(*still, flown))).norm(), 1e-14 * w.norm());
+  EXPECT_LT((w - wrench(loadsOf(*model, flown))).norm(), 1e-14 * w.norm());
 }
 
 TEST(QuasiSteadyRotation, DampingOfPureRotationIsTheStatedIntegralAndDissipates) {

@@ -137,7 +137,8 @@ TEST_F(Checkpointed, ARestoredStepIsTheSameAHundredTimes) {
     Request start;
     start.key.run = 5;
     start.t = model.time(0);
-    start.interface = model.prescribed(start.t);
+    start.prescribed = c.motion->at(start.t);
+    start.interface = start.prescribed.interface();
     ASSERT_EQ(fluid->exchange(start).error, "");
     std::vector<double> first;
     for (int i = 0; i < 100; ++i) {
@@ -149,7 +150,8 @@ TEST_F(Checkpointed, ARestoredStepIsTheSameAHundredTimes) {
       for (std::uint32_t step = 13; step < 15; ++step) {
         request.key = {5, step, 0, Phase::kIterate, 0};
         request.t = model.time(step);
-        request.interface = model.prescribed(request.t);
+        request.prescribed = c.motion->at(request.t);
+        request.interface = request.prescribed.interface();
         const Loads loads = fluid->exchange(request).loads;
         for (const Eigen::Vector3d& v : {loads.force_pressure, loads.force_friction,
                                          loads.moment_pressure, loads.moment_friction})

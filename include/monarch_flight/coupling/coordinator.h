@@ -22,8 +22,11 @@ struct CoupledOutcome {
   std::string failure;
 };
 
-/// The implicit coupling of fluid, flight and wing (model.md section 5). One step from level n to
-/// n+1:
+/// The participants of a run by role; they must outlive it.
+using Participants = std::array<Participant*, kRoles>;
+
+/// The implicit coupling of fluid, flight and wing. One step from level n to n+1:
+///  0. prescribe: guidance says everything that is prescribed at level n+1, once for all attempts
 ///  1. predict: extrapolate the accelerations of the free coordinates, advance by Newmark: guess
 ///  w^0
 ///  2. exchange: loads for w^k from the fluid, the body's acceleration from the flight, the wing's
@@ -40,10 +43,9 @@ struct CoupledOutcome {
 /// During the prescribed start, and when nothing is free, w^0 is the prescribed motion and is kept.
 class Coordinator {
  public:
-  /// Participants must outlive the coordinator. Throws InputError with every fault of model and
-  /// settings.
-  Coordinator(const CoupledModel& model, const CouplingSettings& settings, Participant& fluid,
-              Participant& flight, Participant& wing, std::uint64_t run_id);
+  /// Throws InputError with every fault of model and settings.
+  Coordinator(const CoupledModel& model, const CouplingSettings& settings,
+              const Participants& participants, std::uint64_t run_id);
 
   /// Runs all steps; level 0 is delivered first. `control` is asked before every sub-iteration. Never
   /// throws for a failed run: participants get ABORT, sinks get onEnd(failure), and the outcome
@@ -77,6 +79,8 @@ class Coordinator {
   std::string rescue(std::uint32_t step);
   ExchangeKey keyOf(std::uint32_t step, std::uint32_t iteration, Phase phase) const;
   CommittedStep advance(std::uint32_t step, RunControl& control);
+  void prescribe(CommittedStep& out);
+  void prescribe(const Request& request, CommittedStep& out);
   void solve(RunControl& control, Evaluation& last, CommittedStep& out);
   bool attempt(Accelerator& accelerator, std::uint32_t number, RunControl& control, Evaluation& last,
                CommittedStep& out, std::string& error);
@@ -99,7 +103,7 @@ class Coordinator {
 
   CoupledModel model_;
   CouplingSettings settings_;
-  std::array<Participant*, 3> participants_;
+  Participants participants_;
   std::uint64_t run_id_;
   std::uint32_t resets_ = 0;
   std::vector<StepSink*> sinks_;  // of the run
@@ -110,6 +114,8 @@ class Coordinator {
   Matrix6d added_mass_ = Matrix6d::Zero();  // of the fluid, for the ratio
   int operator_cost_ = 0;                   // of the fluid, in evaluations
   Interface committed_;       // level n
+  PrescribedState prescribed_;  // level n
+  Loads loads_;                 // level n
   StateSnapshot before_;                   // memory of level n, while a step is solved
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known

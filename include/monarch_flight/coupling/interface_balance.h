@@ -4,6 +4,7 @@
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/flight/multibody_dynamics.h"
+#include "monarch_flight/insect/prescribed_motion.h"
 
 namespace monarch_flight {
 
@@ -18,15 +19,16 @@ class InterfaceBalance {
  public:
   explicit InterfaceBalance(const CoupledModel& model);
 
-  /// `guess`: what the air was evaluated for; `answer`: what flight and wing made of its loads. A
-  /// bare wing has no dynamics of its own: the structure's side is then the answered motion.
-  InterfacePower power(double t, const Interface& guess, const Interface& answer,
-                       const Loads& loads) const;
+  /// `prescribed`, `guess`: what the air was evaluated for; `answer`: what flight and wing made of its
+  /// loads. A bare wing has no dynamics of its own: the structure's side is then the answered motion.
+  InterfacePower power(const PrescribedState& prescribed, const Interface& guess,
+                       const Interface& answer, const Loads& loads) const;
 
   /// Spectral radius of M_s^-1 M_a over the free coordinates, both wings taking part: M_s their
   /// structural inertia, M_a that of the air for `added_mass` of one wing (FluidModel::addedMass).
   /// 0 where nothing is free.
-  double addedMassRatio(double t, const Interface& interface, const Matrix6d& added_mass) const;
+  double addedMassRatio(const PrescribedState& prescribed, const Interface& interface,
+                        const Matrix6d& added_mass) const;
 
  private:
   CoupledModel model_;

@@ -11,13 +11,19 @@ using InterfaceValues = Eigen::Matrix<double, 30, 1>;
 InterfaceValues interfaceValues(const Interface& interface);
 Interface interfaceOf(const InterfaceValues& values);
 
+/// The same of everything prescribed: the interface, then phi, psi, theta_A (each q, qd, qdd), the rest
+/// angle, the wind's velocity and acceleration.
+using PrescribedValues = Eigen::Matrix<double, 46, 1>;
+PrescribedValues prescribedValues(const PrescribedState& prescribed);
+PrescribedState prescribedOf(const PrescribedValues& values);
+
 /// Whether two interfaces are the same bit for bit (NaN never is).
 bool same(const Interface& a, const Interface& b);
 bool same(const Coordinate& a, const Coordinate& b);
-/// Whether two requests are the same: key, time, interface, loads and wish for fields.
+/// Whether two requests are the same: key, time, what is prescribed, interface, loads and wishes.
 bool same(const Request& a, const Request& b);
 
-/// Whether time, interface and loads of a message are finite numbers.
+/// Whether every number of a message is finite.
 bool finite(const Request& request);
 bool finite(const Reply& reply);
 

@@ -1,25 +1,22 @@
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "monarch_flight/insect/insect.h"
 #include "monarch_flight/insect/newmark.h"
-#include "monarch_flight/insect/prescribed_motion.h"
+#include "monarch_flight/insect/state.h"
 
 namespace monarch_flight {
 
-/// Constant model that the three participants and the coordinator share. Built as
-/// `CoupledModel model{insect}` and then filled; all of them keep a copy.
+/// Constant model that the solvers and the coordinator share. Built as
+/// `CoupledModel model{insect}` and then filled; all of them keep a copy. It holds no motion: what is
+/// prescribed comes with every request, from guidance (guidance.h).
 struct CoupledModel {
   Insect insect;
-  /// Of everything that is prescribed, and of the free coordinates during the prescribed start.
-  std::shared_ptr<const PrescribedMotion> motion = nullptr;
   FreeCoordinates free = {};
   Newmark newmark = {};      ///< with the time step of the whole run
   double gravity = 9.81;     ///< along +z of NED [m/s^2]
-  Eigen::Vector3d wind_I = Eigen::Vector3d::Zero();  ///< uniform wind, NED [m/s]
   double t_start = 0.0;      ///< time of step 0 [s]
   std::uint32_t steps = 0;   ///< of the whole run
   /// First free step, which a released insect flies at constant acceleration: what the prescribed
@@ -32,14 +29,10 @@ struct CoupledModel {
   int vortex_limit = 20000;  ///< points at most in a picture of vortices
 
   double time(std::uint32_t step) const { return t_start + step * newmark.dt; }
-  /// Joint angles at time t [s], the wings' pitch taken from the interface.
-  JointAngles angles(double t, const Coordinate& theta_R) const;
-  /// Every coordinate as the prescribed motion has it.
-  Interface prescribed(double t) const;
   /// Level n as Newmark leaves it for `step`, level n+1: in the release step with the accelerations
   /// of `next`, an error of second order that is made once; else as committed.
   Interface departure(std::uint32_t step, Interface committed, const Interface& next) const;
-  /// Every fault at once (no motion, no time step, a bare wing with a free body, ...).
+  /// Every fault at once (no time step, a bare wing with a free body, ...).
   std::vector<std::string> problems() const;
 };
 

@@ -9,12 +9,15 @@
 
 #include "monarch_flight/coupling/stop_flag.h"
 #include "monarch_flight/fluid/fluid_model.h"
-#include "monarch_flight/insect/state.h"
+#include "monarch_flight/insect/prescribed_motion.h"
+#include "monarch_flight/insect/wingbeat.h"
 
 namespace monarch_flight {
 
-/// The three solvers, in the order in which a sub-iteration calls them.
-enum class Role : std::uint8_t { kFluid = 0, kFlight = 1, kWing = 2 };
+/// The three solvers, in the order in which a sub-iteration calls them, and guidance, which is asked
+/// once a step before the first sub-iteration.
+enum class Role : std::uint8_t { kFluid = 0, kFlight = 1, kWing = 2, kGuidance = 3 };
+inline constexpr std::size_t kRoles = 4;
 const char* roleName(Role role);
 
 /// START: take the initial interface. ITERATE: compute from (committed state, request), keep nothing
@@ -47,8 +50,11 @@ struct ExchangeKey {
 struct Request {
   ExchangeKey key;
   double t = 0.0;        ///< time of level `step` [s]
-  Interface interface;   ///< guess of level `step` (START: the initial state)
-  Loads loads;           ///< of this sub-iteration; zero in the request to the fluid
+  /// Everything prescribed at level `step`: solvers own no motion. To guidance: of the committed level.
+  PrescribedState prescribed;
+  /// Guess of level `step` (START: the initial state). To guidance: the committed level.
+  Interface interface;
+  Loads loads;           ///< of this sub-iteration; zero to the fluid; of the committed level to guidance
   bool want_operator = false;  ///< ITERATE to the fluid: answer with the loads' Jacobian too
   bool want_flow = false;    ///< COMMIT to the fluid: answer with the whole flow
   bool want_fields = false;  ///< COMMIT to the fluid: answer with surface pressure and vortices
@@ -57,6 +63,9 @@ struct Request {
 struct Reply {
   ExchangeKey key;
   Interface interface;   ///< flight fills body, wing fills theta_R, the rest is as in the request
+  std::optional<PrescribedState> prescribed;  ///< of guidance that owns the motion
+  std::optional<WingbeatChange> command;      ///< of guidance that leads the case's own wingbeat
+  GuidanceReport guidance;  ///< filled by guidance
   Loads loads;           ///< filled by the fluid
   std::optional<LoadOperator> jacobian;  ///< of the loads, at the request's motion; only when asked for
   FluidReport report;    ///< filled by the fluid
@@ -80,7 +89,7 @@ struct IgnoredMessages {
   IgnoredMessages& operator+=(const IgnoredMessages& o);
 };
 
-/// One solver as the coordinator sees it. In process: direct call; over ROS: a lockstep exchange.
+/// One solver, or guidance, as the coordinator sees it. In process: direct call; over ROS: a lockstep exchange.
 class Participant {
  public:
   virtual ~Participant() = default;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "monarch_flight/coupling/guidance.h"
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/state_visitor.h"
@@ -11,7 +12,7 @@
 
 namespace monarch_flight {
 
-/// What the in-process participants have in common: keys, cache and failures.
+/// What the in-process participants, guidance included, have in common: keys, cache and failures.
 ///  - START takes the initial state and forgets everything else.
 ///  - ITERATE of step n+1 is answered from (committed state n, request); the last answer is kept,
 ///  and
@@ -110,6 +111,24 @@ class WingParticipant : public SolverParticipant {
   bool sameGuess(const Interface& answered, const Interface& committed) const override;
 
   std::optional<WingPitchSolver> solver_;  // empty when the pitch is prescribed
+};
+
+/// Guidance: what is prescribed at the next level, from all of the committed one. Asked again for
+/// the same level (by another request than the last), it answers from the same memory.
+class GuidanceParticipant : public SolverParticipant {
+ public:
+  GuidanceParticipant(const CoupledModel& model, std::unique_ptr<Guidance> guidance);
+
+ private:
+  void onStart(const Request& request, Reply& reply) override;
+  void onIterate(const Request& request, Reply& reply) override;
+  void onCommit(const Request& request, Reply& reply) override;
+  void memory(StateVisitor& state) override;
+  bool sameGuess(const Interface& answered, const Interface& committed) const override;
+
+  std::unique_ptr<Guidance> guidance_;
+  StateSnapshot before_;  // guidance's memory of level n, while it stands at n+1
+  bool ahead_ = false;    // it stands at n+1, which is not committed
 };
 
 }  // namespace monarch_flight

@@ -49,7 +49,9 @@ struct CommittedStep {
   std::uint32_t step = 0;      ///< time level, 0 is the initial state
   double t = 0.0;              ///< [s]
   Interface interface;
+  PrescribedState guided;      ///< as guidance prescribed it; what is free has moved from there
   JointAngles angles;          ///< theta is interface.theta_R
+  GuidanceReport guidance;     ///< commands taken and applied
   Loads loads;                 ///< right wing
   Eigen::Vector3d force_I = Eigen::Vector3d::Zero();  ///< both wings (bare wing: the one wing), NED [N]
   bool prescribed = false;     ///< one of the prescribed start steps (or nothing is free)
@@ -68,7 +70,7 @@ struct CommittedStep {
   SurfacePressure surface;             ///< empty unless fields were due
   std::vector<VortexPoint> vortices;   ///< empty unless fields were due
   std::shared_ptr<const FlowField> flow;  ///< null unless it was due and there is one
-  std::array<double, 3> wall_s{};      ///< computing time of fluid, flight, wing in this step
+  std::array<double, kRoles> wall_s{}; ///< computing time of fluid, flight, wing, guidance in this step
   IgnoredMessages ignored;             ///< of all participants since the run began
   double exchange_s = 0.0;             ///< wall time of the step's exchanges beyond that: messages and waiting
   double coupling_s = 0.0;             ///< wall time of the coordinator's own computing in this step

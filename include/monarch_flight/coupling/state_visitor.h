@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "monarch_flight/insect/state.h"
+#include "monarch_flight/insect/prescribed_motion.h"
 
 namespace monarch_flight {
 
@@ -42,6 +42,8 @@ class StateVisitor {
     if (loading()) text.assign(value.begin(), value.end());
   }
   void operator()(const char* name, Interface& interface);
+  void operator()(const char* name, PrescribedState& prescribed);
+  void operator()(const char* name, Loads& loads);
 };
 
 /// A state as a row of numbers in memory: taken and put back without a file, and without an

@@ -6,6 +6,7 @@
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/flight/flight_solver.h"
+#include "monarch_flight/insect/prescribed_motion.h"
 #include "monarch_flight/wing/wing_pitch_solver.h"
 
 namespace monarch_flight {
@@ -22,9 +23,9 @@ class StepModel {
   /// `length_scale` makes displacements dimensionless [m].
   StepModel(const CoupledModel& model, double length_scale);
 
-  /// Sets the step: the committed level n and the prescribed motion of level n+1 = `step`.
-  void begin(const Interface& committed, std::uint32_t step);
-  const Interface& prescribed() const { return prescribed_; }
+  /// Sets the step: the committed level n and what is prescribed at level n+1 = `step`.
+  void begin(const Interface& committed, const PrescribedState& prescribed, std::uint32_t step);
+  const PrescribedState& prescribed() const { return prescribed_; }
   const std::array<bool, 4>& isFree() const { return free_; }
   /// Length or 1 over beta dt^2: d times it is an acceleration [m/s^2, rad/s^2].
   const CouplingVector& scales() const { return scales_; }
@@ -34,21 +35,19 @@ class StepModel {
   Interface interface(const CouplingVector& increments) const;
   /// H(d) - d for these loads, H being the answer of flight and wing to the interface of d.
   CouplingVector residual(const CouplingVector& increments, const Loads& loads) const;
-  /// (v_W - R_IW^T wind; omega_W) and (a_W; alpha_W) of the interface of d: what the loads see.
+  /// (v_W; omega_W) and (a_W; alpha_W) of the interface of d, relative to the wind: what the loads see.
   void airMotion(const CouplingVector& increments, Vector6d& velocity,
                  Vector6d& acceleration) const;
 
  private:
-  JointAngles angles(const Coordinate& theta_R) const;
-
   CoupledModel model_;
   std::uint32_t step_ = 0;
   std::array<bool, 4> free_;  // x, z, pitch, wing pitch
   CouplingVector scales_;
   FlightSolver flight_;
   std::optional<WingPitchSolver> wing_;  // empty when the pitch is prescribed
-  Interface committed_, prescribed_;
-  JointAngles prescribed_angles_;
+  Interface committed_;
+  PrescribedState prescribed_;
 };
 
 }  // namespace monarch_flight

@@ -30,7 +30,7 @@ struct VortexPoint {
 };
 
 /// Jacobian of the loads (force; moment) at level n+1, wing axes, with respect to the wing's velocity
-/// (v_W - R_IW^T wind; omega_W) and its acceleration (a_W; alpha_W), each with the others kept.
+/// (v_W; omega_W) and its acceleration (a_W; alpha_W), each with the others kept.
 struct LoadOperator {
   Matrix6d velocity = Matrix6d::Zero();      ///< [N s/m, N s, N m s/m, N m s]
   Matrix6d acceleration = Matrix6d::Zero();  ///< [kg, kg m, kg m, kg m^2]
@@ -50,13 +50,14 @@ struct FluidReport {
   KernelTimes kernel_s{};  ///< wall time by kernel since `start` (0: no grid), of process 0
 };
 
-/// The one contract of all flow models. A model owns a committed state at time level n.
+/// The one contract of all flow models. A model owns a committed state at time level n. Its air is at
+/// rest far away: the motions it is given are relative to the wind (relativeTo, prescribed_motion.h).
 /// `evaluate` is a pure function of (committed state, motion): it may be called any number of times with
 /// different or equal motions and changes nothing that a later evaluate could see.
 class FluidModel {
  public:
   virtual ~FluidModel() = default;
-  /// Starts from air at rest (or the uniform wind) with the wing in this motion at time level 0;
+  /// Starts from air at rest with the wing in this motion at time level 0;
   /// `dt` is the time step of all that follows [s].
   virtual void start(const WingMotion& motion, double dt) = 0;
   /// Loads at level n+1 if the wing moves to `next`. Throws NumericalError on a non-finite result.
@@ -84,11 +85,10 @@ class FluidModel {
   virtual std::shared_ptr<const FlowField> flowField() const { return nullptr; }
 };
 
-/// Uniform air.
+/// Properties of the air.
 struct Air {
-  double rho = 1.225;                               ///< [kg/m^3]
-  double mu = 1.8e-5;                               ///< dynamic viscosity [Pa s]
-  Eigen::Vector3d wind_I = Eigen::Vector3d::Zero(); ///< uniform wind, NED [m/s]
+  double rho = 1.225;  ///< [kg/m^3]
+  double mu = 1.8e-5;  ///< dynamic viscosity [Pa s]
 };
 
 }  // namespace monarch_flight

@@ -1,15 +1,36 @@
 #pragma once
-#include <memory>
-#include <string>
+#include <Eigen/Dense>
 
 #include "monarch_flight/insect/state.h"
 
 namespace monarch_flight {
 
-/// State of everything at one time as the motion description has it.
+/// Uniform motion of the air at one time, F_I (NED): where it goes to.
+struct Wind {
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< velocity [m/s]
+  Eigen::Vector3d a = Eigen::Vector3d::Zero();  ///< acceleration [m/s^2]
+};
+
+/// The wing's motion as air at rest sees it: relative to the wind. A uniform wind, steady or not,
+/// does nothing else to a wing without volume (Galilean invariance).
+WingMotion relativeTo(const Wind& wind, WingMotion motion);
+
+/// Everything that is prescribed at one time level. What the equations of motion move is in it,
+/// too, as the motion description has it: the start, and what the prescribed steps fly.
 struct PrescribedState {
   BodyState body;
   JointAngles angles;
+  double rest_angle = 0.0;  ///< added to the hinge's own rest angle theta_0 [rad]
+  Wind wind;
+
+  /// The joint angles with this wing pitch.
+  JointAngles anglesWith(const Coordinate& theta_R) const {
+    JointAngles all = angles;
+    all.theta = theta_R;
+    return all;
+  }
+  /// Body and wing pitch as prescribed.
+  Interface interface() const { return {body, angles.theta}; }
 };
 
 /// Motion as a function of time, with consistent first and second derivatives. Immutable, thread-safe.

@@ -1,12 +1,15 @@
 #pragma once
 #include <monarch_flight/CouplingKey.h>
+#include <monarch_flight/GuidanceState.h>
 #include <monarch_flight/IgnoredCounts.h>
 #include <monarch_flight/InterfaceState.h>
 #include <monarch_flight/ParticipantReply.h>
 #include <monarch_flight/ParticipantRequest.h>
+#include <monarch_flight/PrescribedLevel.h>
 #include <monarch_flight/SubIteration.h>
 #include <monarch_flight/WholeFlow.h>
 #include <monarch_flight/WingLoads.h>
+#include <monarch_flight/WingbeatCommand.h>
 
 #include <memory>
 #include <string>
@@ -33,6 +36,10 @@ ParticipantRequest toMessage(const Request& request);
 ParticipantReply toMessage(const Reply& reply);
 SubIteration toMessage(const IterationRecord& record);
 IgnoredCounts toMessage(const IgnoredMessages& ignored);
+PrescribedLevel toMessage(const PrescribedState& prescribed);
+/// `at_once` of the message is left as it is by default.
+WingbeatCommand toMessage(const WingbeatChange& change);
+GuidanceState toMessage(const GuidanceReport& report);
 
 /// Precondition: problem(message) is empty (the phase is one of Phase).
 ExchangeKey fromMessage(const CouplingKey& key);
@@ -42,6 +49,8 @@ Request fromMessage(const ParticipantRequest& request);
 Reply fromMessage(const ParticipantReply& reply);
 IterationRecord fromMessage(const SubIteration& record);
 IgnoredMessages fromMessage(const IgnoredCounts& ignored);
+PrescribedState fromMessage(const PrescribedLevel& prescribed);
+WingbeatChange fromMessage(const WingbeatCommand& command);
 
 /// Why a message cannot be used (protocol version, phase, sizes); empty when it can. Says nothing
 /// of the run.

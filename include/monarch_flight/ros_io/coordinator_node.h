@@ -29,7 +29,7 @@ class CoordinatorNode {
   Case case_;
   ros::NodeHandle node_;
   LockstepRun run_;
-  std::array<std::unique_ptr<RosParticipant>, 3> participants_;
+  std::array<std::unique_ptr<RosParticipant>, 3> solvers_;  // by role
 };
 
 }  // namespace monarch_flight

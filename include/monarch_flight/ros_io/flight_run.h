@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/coupling/coordinator.h"
 #include "monarch_flight/coupling/run_control.h"
 #include "monarch_flight/ros_io/bag_output.h"
 #include "monarch_flight/ros_io/flight_messages.h"
@@ -24,8 +24,8 @@ class FlightRun {
   /// Delivers to `sink`, too, after everything is written; it must outlive this.
   void addSink(StepSink& sink) { last_.push_back(&sink); }
   /// Flies as `control` says; prints the end; returns an exit code (`stop`: stopped by hand).
-  int fly(std::uint64_t run_id, Participant& fluid, Participant& flight, Participant& wing,
-          RunControl& control, const StopFlag& stop);
+  int fly(std::uint64_t run_id, const Participants& participants, RunControl& control,
+          const StopFlag& stop);
 
  private:
   void tell() const;

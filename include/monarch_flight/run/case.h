@@ -40,6 +40,7 @@ struct Case {
   std::string name;
   Insect insect{"", true, 0, {}, 0, 0, 0, 0, {}, {}, {}, 0, 0, 0, Planform::rectangle(1, 1, 0)};
   Air air;
+  Eigen::Vector3d wind_I = Eigen::Vector3d::Zero();  ///< uniform wind, NED [m/s]
   double gravity = 9.81;         ///< [m/s^2], along +z of NED
   FluidKind fluid = FluidKind::kNavierStokes;
   BladeElementVariant blade_element = BladeElementVariant::kSaneDickinson;

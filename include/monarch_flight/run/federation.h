@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "monarch_flight/coupling/coordinator.h"
+#include "monarch_flight/coupling/guidance.h"
 #include "monarch_flight/coupling/keeper.h"
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
@@ -13,6 +15,8 @@ namespace monarch_flight {
 
 /// The flow model that the case names, started by the participant's START request.
 std::unique_ptr<FluidModel> makeFluid(const Case& c);
+/// What owns the motion of the case.
+std::unique_ptr<Guidance> makeGuidance(const Case& c);
 /// What coordinator and participants need to know of the case.
 CoupledModel makeModel(const Case& c);
 /// The in-process participant for a role; the ROS nodes wrap exactly these. `checkpoints`: folder in
@@ -26,15 +30,15 @@ struct RunResult {
   std::string failure;  ///< empty when complete
 };
 
-/// Runs the coupled loop of the whole case over three participants and feeds the sinks.
+/// Runs the coupled loop of the whole case over its participants and feeds the sinks.
 /// `control` is asked before every sub-iteration. Never throws for a failed run: see RunResult.
 /// A sink that throws in onStep ends the run with its message; one that throws in onEnd makes it
 /// failed, and the sinks behind it are ended with that failure.
-RunResult runCase(const Case& c, std::uint64_t run_id, Participant& fluid, Participant& flight,
-                  Participant& wing, const std::vector<StepSink*>& sinks, RunControl& control,
+RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& participants,
+                  const std::vector<StepSink*>& sinks, RunControl& control,
                   Keeper* keeper = nullptr);
 
-/// Fluid, flight and wing of a case in one process, without ROS.
+/// Fluid, flight, wing and guidance of a case in one process, without ROS.
 class InProcessFederation {
  public:
   /// `checkpoints`: their folder; needed for a run with a keeper.
@@ -42,11 +46,11 @@ class InProcessFederation {
   /// Flies until the end or until `stop` is set.
   RunResult run(std::uint64_t run_id, const std::vector<StepSink*>& sinks, const StopFlag& stop,
                 Keeper* keeper = nullptr);
-  Participant& participant(Role role) { return *participants_[static_cast<int>(role)]; }
+  Participants participants();
 
  private:
   Case case_;
-  std::array<std::unique_ptr<Participant>, 3> participants_;
+  std::array<std::unique_ptr<Participant>, kRoles> participants_;
 };
 
 }  // namespace monarch_flight

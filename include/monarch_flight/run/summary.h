@@ -54,7 +54,7 @@ class Summary {
   Range theta_B_, theta_R_, solved_, all_, evaluations_, ratio_;
   std::uint32_t retried_ = 0;
   double work_fluid_ = 0.0, work_structure_ = 0.0, work_error_ = 0.0, work_scale_ = 0.0;
-  std::array<double, 3> wall_{};
+  std::array<double, kRoles> wall_{};
   double exchange_ = 0.0, coupling_ = 0.0, outputs_ = 0.0;
   KernelTimes kernels_{};
   double outputs_before_ = 0.0;    // of the parts flown before a resumption, as the next one

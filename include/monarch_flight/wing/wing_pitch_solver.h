@@ -7,7 +7,7 @@ namespace monarch_flight {
 
 /// Passive pitch of the right wing on its torsional hinge (model.md section 3): the y row, in wing
 /// axes, of the wing's Newton-Euler equation about its root,
-///   [ m nu x (a - g) + J alpha + w x J w ]_y = M_y - kappa (theta - theta_0),
+///   [ m nu x (a - g) + J alpha + w x J w ]_y = M_y - kappa (theta - theta_0 - rest_angle),
 /// with the root's absolute acceleration a, the total angular velocity w and acceleration alpha. It
 /// holds for every motion of the body, that of a bare wing from a table included.
 class WingPitchSolver {
@@ -15,15 +15,16 @@ class WingPitchSolver {
   /// `gravity` along +z of NED [m/s^2]. Throws std::invalid_argument when J_yy is not positive.
   WingPitchSolver(const Insect& insect, double gravity, const Newmark& newmark);
 
-  /// theta'' [rad/s^2] for the body's motion, the joint angles (angles.theta.qdd is not used) and
-  /// the air's moment about the wing root, wing axes.
-  double acceleration(const BodyState& body, const JointAngles& angles, const Loads& loads) const;
+  /// theta'' [rad/s^2] for the body's motion, the joint angles (angles.theta.qdd is not used), the
+  /// air's moment about the wing root, wing axes, and a shift of the hinge's rest angle [rad].
+  double acceleration(const BodyState& body, const JointAngles& angles, const Loads& loads,
+                      double rest_angle = 0.0) const;
 
   /// theta at level n+1 by Newmark from `n`. `angles` is the guess of level n+1; the hinge's spring
   /// is taken at the new angle (implicitly), all other terms at the guess, so that with the guess
   /// equal to the answer this is the implicit Newmark step.
   Coordinate step(const Coordinate& n, const BodyState& body, const JointAngles& angles,
-                  const Loads& loads) const;
+                  const Loads& loads, double rest_angle = 0.0) const;
 
  private:
   /// All of J_yy theta'' but the spring's moment [N m].

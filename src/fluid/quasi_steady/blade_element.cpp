@@ -13,7 +13,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kStrips = 64;
 
-// Motion of the wing through the air, wing axes: velocity of the root relative to the uniform wind,
+// Motion of the wing through the air, wing axes: velocity of the root,
 // angular velocity, and the component-wise rates of both.
 struct RelativeMotion {
   Eigen::Vector3d u, omega;
@@ -109,11 +109,10 @@ class BladeElement final : public FluidModel {
   bool started_ = false, evaluated_ = false;
 };
 
-// d(v_W)/dt component-wise is a_W - omega x v_W; the wind, constant in F_I, adds omega x (R^T
-// wind).
+// d(v_W)/dt component-wise is a_W - omega x v_W.
 RelativeMotion BladeElement::relativeMotion(const WingMotion& m) const {
   RelativeMotion r;
-  r.u = m.v_W - m.R_IW.transpose() * air_.wind_I;
+  r.u = m.v_W;
   r.omega = m.omega_W;
   r.rate.head<3>() = m.a_W - m.omega_W.cross(r.u);
   r.rate.tail<3>() = m.alpha_W;

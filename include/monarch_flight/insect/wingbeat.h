@@ -1,0 +1,45 @@
+#pragma once
+#include <array>
+#include <cstddef>
+
+namespace monarch_flight {
+
+/// What can be commanded of the wingbeat, as a change of what the case's motion does; all zero: the
+/// motion itself. Angles are those of the right wing; with mirrored wings the left one does the same.
+struct WingbeatChange {
+  double amplitude = 0.0;          ///< of flapping, relative: phi swings by (1 + amplitude) times
+  double flapping_mean = 0.0;      ///< added to phi [rad]
+  double frequency = 0.0;          ///< of the wingbeat, relative
+  double deviation_mean = 0.0;     ///< added to psi [rad]
+  double rest_angle = 0.0;         ///< added to the hinge's rest angle theta_0 [rad]
+  double abdomen_mean = 0.0;       ///< added to theta_A [rad]
+  double abdomen_amplitude = 0.0;  ///< of the abdomen, relative
+};
+
+/// The commands one by one, for everything that goes through all of them.
+inline constexpr std::size_t kCommands = 7;
+struct CommandInfo {
+  const char* name;  ///< in case files, messages (`applied`, `command`) and tables
+  const char* unit;  ///< "" when relative
+  double WingbeatChange::*value;
+};
+inline constexpr std::array<CommandInfo, kCommands> kCommandTable = {
+    {{"amplitude", "", &WingbeatChange::amplitude},
+     {"flapping_mean", "rad", &WingbeatChange::flapping_mean},
+     {"frequency", "", &WingbeatChange::frequency},
+     {"deviation_mean", "rad", &WingbeatChange::deviation_mean},
+     {"rest_angle", "rad", &WingbeatChange::rest_angle},
+     {"abdomen_mean", "rad", &WingbeatChange::abdomen_mean},
+     {"abdomen_amplitude", "", &WingbeatChange::abdomen_amplitude}}};
+
+/// What guidance has done by a time level.
+struct GuidanceReport {
+  WingbeatChange command;  ///< taken, within the bounds: where the filters go to
+  WingbeatChange applied;  ///< what the wings fly: the filters' values
+  double phase = 0.0;       ///< flaps since t = 0, whole and part
+  unsigned clipped = 0;     ///< commands cut to their bounds since the run began
+  unsigned refused = 0;     ///< commands not taken at all (not finite, not for this insect) since then
+  bool lost = false;        ///< a controller has given up (docs/guidance.md)
+};
+
+}  // namespace monarch_flight
