@@ -1,5 +1,5 @@
 # The core: no ROS. One library per layer; dependencies point one way only:
-#   math <- insect <- fluid, flight, wing <- coupling <- run <- trim
+#   math <- insect <- fluid, flight, wing <- coupling <- guidance <- run <- trim
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(BLAS REQUIRED)
 find_package(LAPACK REQUIRED)
@@ -39,7 +39,8 @@ target_link_libraries(monarch_fluid PUBLIC MPI::MPI_C PRIVATE lapacke LAPACK::LA
 core_layer(flight monarch_insect)
 core_layer(wing monarch_insect)
 core_layer(coupling monarch_insect monarch_fluid monarch_flight monarch_wing)
-core_layer(run monarch_coupling)
+core_layer(guidance monarch_coupling)
+core_layer(run monarch_guidance)
 target_link_libraries(monarch_run PRIVATE PkgConfig::YAML_CPP OpenSSL::Crypto nlohmann_json::nlohmann_json
   ${HDF5_C_LIBRARIES})
 target_include_directories(monarch_run SYSTEM PRIVATE ${HDF5_C_INCLUDE_DIRS})
@@ -47,7 +48,7 @@ target_compile_definitions(monarch_run PRIVATE MONARCH_FLIGHT_VERSION="${PROJECT
 core_layer(trim monarch_run)
 find_package(Threads REQUIRED)
 target_link_libraries(monarch_trim PRIVATE PkgConfig::YAML_CPP Threads::Threads)
-set(CORE_LAYERS monarch_math monarch_insect monarch_fluid monarch_flight monarch_wing monarch_coupling monarch_run monarch_trim)
+set(CORE_LAYERS monarch_math monarch_insect monarch_fluid monarch_flight monarch_wing monarch_coupling monarch_guidance monarch_run monarch_trim)
 
 # Programs of the core, one per file of src/programs.
 foreach(program trim inverse_dynamics)

@@ -33,8 +33,8 @@ void AddedMassNewton::forget() {
   operator_.reset();
 }
 
-// One more trial costs less than an operator, so it takes a bad step to ask out of turn. A flow that
-// starts with a time scheme of lower order has another operator from its second step on.
+// One more trial costs less than an operator, so it takes a bad step to ask out of turn. A flow
+// that starts with a time scheme of lower order has another operator from its second step on.
 bool AddedMassNewton::wantsOperator(int operator_cost) const {
   if (!operator_) return true;
   if (advances_ > 0) return false;

@@ -20,7 +20,8 @@ constexpr double kCautious = 0.25;  // relaxation of the second attempt over tha
 
 /// What the coordinator itself took of a step that began at `begin`.
 double ownSeconds(Clock::time_point begin, const CommittedStep& step) {
-  return secondsSince(begin) - std::accumulate(step.wall_s.begin(), step.wall_s.end(), step.exchange_s);
+  return secondsSince(begin) -
+         std::accumulate(step.wall_s.begin(), step.wall_s.end(), step.exchange_s);
 }
 
 /// Smaller relaxation for a second attempt at a step.

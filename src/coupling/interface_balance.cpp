@@ -45,7 +45,8 @@ InterfacePower InterfaceBalance::power(const PrescribedState& prescribed, const 
                                        const Interface& answer, const Loads& loads) const {
   InterfacePower power;
   const Insect& insect = model_.insect;
-  power.fluid = along(rightWingMotion(insect, guess.body, prescribed.anglesWith(guess.theta_R)), loads);
+  power.fluid =
+      along(rightWingMotion(insect, guess.body, prescribed.anglesWith(guess.theta_R)), loads);
   const JointAngles angles = prescribed.anglesWith(answer.theta_R);
   if (!dynamics_) {
     power.structure = along(rightWingMotion(insect, answer.body, angles), loads);

@@ -75,20 +75,24 @@ bool same(const Coordinate& a, const Coordinate& b) {
 }
 
 bool same(const Request& a, const Request& b) {
-  return a.key == b.key && a.t == b.t && prescribedValues(a.prescribed) == prescribedValues(b.prescribed) && same(a.interface, b.interface) && same(a.loads, b.loads) &&
+  return a.key == b.key && a.t == b.t &&
+         prescribedValues(a.prescribed) == prescribedValues(b.prescribed) &&
+         same(a.interface, b.interface) && same(a.loads, b.loads) &&
          a.want_operator == b.want_operator && a.want_fields == b.want_fields &&
          a.want_flow == b.want_flow;
 }
 
 bool finite(const Request& request) {
-  return std::isfinite(request.t) && prescribedValues(request.prescribed).allFinite() && interfaceValues(request.interface).allFinite() &&
-         finite(request.loads);
+  return std::isfinite(request.t) && prescribedValues(request.prescribed).allFinite() &&
+         interfaceValues(request.interface).allFinite() && finite(request.loads);
 }
 
 bool finite(const Reply& reply) {
-  return interfaceValues(reply.interface).allFinite() && (!reply.prescribed || prescribedValues(*reply.prescribed).allFinite()) && finite(reply.loads) &&
-         (!reply.jacobian || (reply.jacobian->velocity.allFinite() &&
-                              reply.jacobian->acceleration.allFinite()));
+  return interfaceValues(reply.interface).allFinite() &&
+         (!reply.prescribed || prescribedValues(*reply.prescribed).allFinite()) &&
+         finite(reply.loads) &&
+         (!reply.jacobian ||
+          (reply.jacobian->velocity.allFinite() && reply.jacobian->acceleration.allFinite()));
 }
 
 }  // namespace monarch_flight

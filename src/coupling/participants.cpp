@@ -114,8 +114,8 @@ void GuidanceParticipant::onIterate(const Request& request, Reply& reply) {
     before_.take(show);
   }
   ahead_ = true;
-  reply.prescribed = guidance_->next({request.key.step, request.t, request.interface,
-                                      request.loads, request.prescribed});
+  reply.prescribed = guidance_->next({request.key.step, request.t, model().newmark.dt,
+                                      request.interface, request.loads, request.prescribed});
   reply.guidance = guidance_->report();
 }
 

@@ -49,8 +49,7 @@ CouplingVector StepModel::residual(const CouplingVector& d, const Loads& loads) 
   Interface answer = guess;
   answer.body = flight_.step(from.body, prescribed_.body, guess.body, guessed, loads);
   if (wing_) {
-    answer.theta_R =
-        wing_->step(from.theta_R, answer.body, guessed, loads, prescribed_.rest_angle);
+    answer.theta_R = wing_->step(from.theta_R, answer.body, guessed, loads, prescribed_.rest_angle);
   }
   return increments(answer) - d;
 }
@@ -59,8 +58,8 @@ void StepModel::airMotion(const CouplingVector& d, Vector6d& velocity,
                           Vector6d& acceleration) const {
   const Interface guess = interface(d);
   const WingMotion motion =
-      relativeTo(prescribed_.wind, rightWingMotion(model_.insect, guess.body,
-                                                   prescribed_.anglesWith(guess.theta_R)));
+      relativeTo(prescribed_.wind,
+                 rightWingMotion(model_.insect, guess.body, prescribed_.anglesWith(guess.theta_R)));
   velocity << motion.v_W, motion.omega_W;
   acceleration << motion.a_W, motion.alpha_W;
 }

@@ -151,7 +151,7 @@ vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const FieldScales& sc
   auto velocity = array("velocity", 3, n), vorticity = array("vorticity", 3, n);
   auto spanwise = array("spanwise_vorticity", 1, n), pressure = array("pressure", 1, n);
   auto q = array("Q", 1, n);
-  const Vector3d wind = worldAxes() * c.wind_I;
+  const Vector3d wind = worldAxes() * step.guided.wind.v;
   for (std::size_t i = 0; i < n; ++i) {
     const vtkIdType id = static_cast<vtkIdType>(i);
     const Vector3d v = Eigen::Map<const Eigen::Vector3f>(&flow.velocity[3 * i]).cast<double>();

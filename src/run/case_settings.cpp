@@ -29,7 +29,9 @@ void readFluid(Section section, Case& c) {
   c.air.rho = section.number("density", {Bound::kPositive, "kg/m3", "air at 15 C has 1.225"});
   c.air.mu = section.number("viscosity", {Bound::kPositive, "Pa s", "air at 15 C has 1.8e-5"});
   c.gravity = section.number("gravity", {Bound::kNonNegative, "m/s2", "9.81, or 0 for none"});
-  c.wind_I = section.vector3("wind", "m/s");
+  const Eigen::Vector3d wind_I = section.vector3("wind", "m/s");
+  c.wind = std::make_shared<SteadyWind>(wind_I);
+  c.wind_peak = wind_I.norm();
   section.finish();
 }
 

@@ -75,7 +75,7 @@ CoupledModel makeModel(const Case& c) {
 }
 
 std::unique_ptr<Guidance> makeGuidance(const Case& c) {
-  return std::make_unique<MotionGuidance>(c.motion, c.wind_I);
+  return std::make_unique<MotionGuidance>(c.motion, c.wind);
 }
 
 std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,

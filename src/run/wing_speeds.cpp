@@ -34,9 +34,12 @@ WingSpeeds peakWingSpeeds(const Case& c, double duration) {
   const std::vector<Eigen::Vector3d> points = outline(c.insect.planform);
   WingSpeeds peak;
   for (std::uint32_t i = 0; i <= intervals; ++i) {
-    const PrescribedState state = c.motion->at(c.time.t_start + duration * i / intervals);
-    const WingMotion wing = rightWingMotion(c.insect, state.body, state.angles);
-    const Eigen::Vector3d root = wing.v_W - wing.R_IW.transpose() * c.wind_I;
+    const double t = c.time.t_start + duration * i / intervals;
+    const PrescribedState state = c.motion->at(t);
+    const BodyState& body = state.body;
+    const WingMotion wing = relativeTo(c.wind->at(t, body.x, body.v, body.a),
+                                       rightWingMotion(c.insect, body, state.angles));
+    const Eigen::Vector3d& root = wing.v_W;
     peak.root = std::max(peak.root, root.norm());
     for (const Eigen::Vector3d& point : points) {
       peak.outline = std::max(peak.outline, (root + wing.omega_W.cross(point)).norm());

@@ -69,7 +69,7 @@ class Fields : public ::testing::Test {
         CONFIG_DIR);
     c.grid.cells_per_chord = 6;
     c.grid.far_field = 3;
-    c.wind_I = {0.3, -0.2, 0.1};
+    c.wind = std::make_shared<SteadyWind>(kWind);
     InProcessFederation federation(c);
     const auto files = makeFieldOutput(c, folder());
     const RunResult result = federation.run(1, {&keeper(), files.get()}, StopFlag(false));
@@ -168,7 +168,7 @@ TEST_F(Fields, TheValuesAreTheSolversTurnedIntoTheWorld) {
     const Vector3d v = Eigen::Map<const Eigen::Vector3f>(&flow.velocity[3 * i]).cast<double>();
     const Vector3d w = Eigen::Map<const Eigen::Vector3f>(&flow.vorticity[3 * i]).cast<double>();
     fastest = std::max(fastest, v.norm());
-    const Vector3d expected = world(R * v + theCase().wind_I);
+    const Vector3d expected = world(R * v + kWind);
     EXPECT_LT((tuple(data->GetArray("velocity"), i) - expected).norm(), 1e-6);
     EXPECT_LT((tuple(data->GetArray("vorticity"), i) - world(R * w)).norm(), 1e-6 * (1 + w.norm()));
     EXPECT_EQ(flow.vorticity[3 * i + 1], float(data->GetArray("spanwise_vorticity")->GetTuple1(i)));

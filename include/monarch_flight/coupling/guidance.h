@@ -5,6 +5,7 @@
 
 #include "monarch_flight/coupling/state_visitor.h"
 #include "monarch_flight/insect/prescribed_motion.h"
+#include "monarch_flight/insect/wind_model.h"
 #include "monarch_flight/insect/wingbeat.h"
 
 namespace monarch_flight {
@@ -13,6 +14,7 @@ namespace monarch_flight {
 struct GuidanceInput {
   std::uint32_t step = 0;      ///< n+1
   double t = 0.0;              ///< of level n+1 [s]
+  double dt = 0.0;             ///< from level n [s]
   Interface interface;         ///< of level n
   Loads loads;                 ///< of level n, right wing
   PrescribedState prescribed;  ///< of level n
@@ -33,23 +35,21 @@ class Guidance {
   virtual void memory(StateVisitor&) {}
 };
 
-/// A motion that is a function of time, in a steady uniform wind: nothing to remember.
+/// A motion that is a function of time, in a wind: nothing to remember.
 class MotionGuidance : public Guidance {
  public:
   explicit MotionGuidance(std::shared_ptr<const PrescribedMotion> motion,
-                          const Eigen::Vector3d& wind_I = Eigen::Vector3d::Zero())
-      : motion_(std::move(motion)), wind_I_(wind_I) {}
-  PrescribedState start(double t) override { return at(t); }
-  PrescribedState next(const GuidanceInput& input) override { return at(input.t); }
+                          std::shared_ptr<const WindModel> wind = std::make_shared<SteadyWind>())
+      : motion_(std::move(motion)), wind_(std::move(wind)) {}
+  PrescribedState start(double t) override;
+  PrescribedState next(const GuidanceInput& input) override;
 
  private:
-  PrescribedState at(double t) const {
-    PrescribedState state = motion_->at(t);
-    state.wind.v = wind_I_;
-    return state;
-  }
   std::shared_ptr<const PrescribedMotion> motion_;
-  Eigen::Vector3d wind_I_;
+  std::shared_ptr<const WindModel> wind_;
 };
+
+/// The wind that the body meets at level n+1, its place there by extrapolation from level n.
+Wind windAhead(const WindModel& wind, const GuidanceInput& input);
 
 }  // namespace monarch_flight

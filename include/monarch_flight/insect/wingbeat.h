@@ -5,7 +5,8 @@
 namespace monarch_flight {
 
 /// What can be commanded of the wingbeat, as a change of what the case's motion does; all zero: the
-/// motion itself. Angles are those of the right wing; with mirrored wings the left one does the same.
+/// motion itself. Angles are those of the right wing; with mirrored wings the left one does the
+/// same.
 struct WingbeatChange {
   double amplitude = 0.0;          ///< of flapping, relative: phi swings by (1 + amplitude) times
   double flapping_mean = 0.0;      ///< added to phi [rad]
@@ -36,10 +37,10 @@ inline constexpr std::array<CommandInfo, kCommands> kCommandTable = {
 struct GuidanceReport {
   WingbeatChange command;  ///< taken, within the bounds: where the filters go to
   WingbeatChange applied;  ///< what the wings fly: the filters' values
-  double phase = 0.0;       ///< flaps since t = 0, whole and part
-  unsigned clipped = 0;     ///< commands cut to their bounds since the run began
-  unsigned refused = 0;     ///< commands not taken at all (not finite, not for this insect) since then
-  bool lost = false;        ///< a controller has given up (docs/guidance.md)
+  double phase = 0.0;      ///< flaps since t = 0, whole and part
+  unsigned clipped = 0;    ///< commands cut to their bounds since the run began
+  unsigned refused = 0;  ///< commands not taken at all (not finite, not for this insect) since then
+  bool lost = false;     ///< a controller has given up (docs/guidance.md)
 };
 
 }  // namespace monarch_flight

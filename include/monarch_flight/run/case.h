@@ -11,6 +11,7 @@
 #include "monarch_flight/fluid/quasi_steady.h"
 #include "monarch_flight/insect/insect.h"
 #include "monarch_flight/insect/prescribed_motion.h"
+#include "monarch_flight/insect/wind_model.h"
 
 namespace monarch_flight {
 
@@ -40,7 +41,8 @@ struct Case {
   std::string name;
   Insect insect{"", true, 0, {}, 0, 0, 0, 0, {}, {}, {}, 0, 0, 0, Planform::rectangle(1, 1, 0)};
   Air air;
-  Eigen::Vector3d wind_I = Eigen::Vector3d::Zero();  ///< uniform wind, NED [m/s]
+  std::shared_ptr<const WindModel> wind = std::make_shared<SteadyWind>();
+  double wind_peak = 0.0;        ///< largest speed of the wind [m/s]
   double gravity = 9.81;         ///< [m/s^2], along +z of NED
   FluidKind fluid = FluidKind::kNavierStokes;
   BladeElementVariant blade_element = BladeElementVariant::kSaneDickinson;

@@ -1,0 +1,33 @@
+#pragma once
+#include <Eigen/Dense>
+
+#include "monarch_flight/insect/prescribed_motion.h"
+
+namespace monarch_flight {
+
+/// The wind of a run: uniform in space at every time, as seen at the insect. Immutable,
+/// thread-safe.
+class WindModel {
+ public:
+  virtual ~WindModel() = default;
+  /// At time t [s] and the body's place x, moving at v and a (F_I; [m], [m/s], [m/s^2]): a gust
+  /// that stands in the way is met at that speed, so the wind's acceleration follows from them.
+  virtual Wind at(double t, const Eigen::Vector3d& x, const Eigen::Vector3d& v,
+                  const Eigen::Vector3d& a) const = 0;
+};
+
+/// The same wind at all times.
+class SteadyWind : public WindModel {
+ public:
+  explicit SteadyWind(const Eigen::Vector3d& wind_I = Eigen::Vector3d::Zero())
+      : wind_{wind_I, {0, 0, 0}} {}
+  Wind at(double, const Eigen::Vector3d&, const Eigen::Vector3d&,
+          const Eigen::Vector3d&) const override {
+    return wind_;
+  }
+
+ private:
+  Wind wind_;
+};
+
+}  // namespace monarch_flight

@@ -1,0 +1,179 @@
+#include "monarch_flight/guidance/wingbeat_guidance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "monarch_flight/math/errors.h"
+
+namespace monarch_flight {
+namespace {
+
+enum Index {
+  kAmplitude,
+  kFlappingMean,
+  kFrequency,
+  kDeviationMean,
+  kRestAngle,
+  kAbdomenMean,
+  kAbdomenAmplitude
+};
+
+constexpr int kSamples = 360;  // of a flap, for the means
+
+/// A series swung and shifted: q + swing (q - mean) + shift.
+Coordinate swung(const Coordinate& s, double mean, const Coordinate& swing,
+                 const Coordinate& shift) {
+  const double from_mean = s.q - mean;
+  return {s.q + swing.q * from_mean + shift.q,
+          s.qd + (swing.q * s.qd + swing.qd * from_mean) + shift.qd,
+          s.qdd + (swing.q * s.qdd + 2.0 * swing.qd * s.qd + swing.qdd * from_mean) + shift.qdd};
+}
+
+Coordinate shifted(const Coordinate& s, const Coordinate& shift) {
+  return {s.q + shift.q, s.qd + shift.qd, s.qdd + shift.qdd};
+}
+
+/// s(tau(t)) for tau' = 1 + f.
+Coordinate retimed(const Coordinate& s, const Coordinate& f) {
+  const double rate = 1.0 + f.q;
+  return {s.q, s.qd * rate, s.qdd * (rate * rate) + s.qd * f.qd};
+}
+
+const WingbeatSettings& checked(const WingbeatSettings& settings) {
+  const std::vector<std::string> faults = settings.problems();
+  if (!faults.empty()) throw InputError(faults);
+  return settings;
+}
+
+}  // namespace
+
+std::vector<std::string> WingbeatSettings::problems() const {
+  std::vector<std::string> faults;
+  const auto fault = [&faults](const std::string& key, double value, const std::string& bound) {
+    std::ostringstream text;
+    text << "guidance/" << key << " = " << value << ": must be " << bound;
+    faults.push_back(text.str());
+  };
+  if (!(std::isfinite(frequency) && frequency > 0.0))
+    fault("type: the motion's frequency", frequency,
+          "> 0 Hz for a wingbeat that is led; give motion/frequency");
+  if (!(std::isfinite(time_constant) && time_constant > 0.0))
+    fault("time_constant", time_constant, "> 0 flaps; 0.25 is usual");
+  for (std::size_t i = 0; i < kCommands; ++i) {
+    const CommandLimits& l = limits[i];
+    const std::string name = std::string("limits/") + kCommandTable[i].name;
+    if (!(std::isfinite(l.low) && l.low <= 0.0))
+      fault(name + "[0]", l.low, "<= 0; 0 is no command");
+    if (!(std::isfinite(l.high) && l.high >= 0.0))
+      fault(name + "[1]", l.high, ">= 0; 0 is no command");
+    if (!(std::isfinite(l.rate) && l.rate > 0.0))
+      fault(std::string("rates/") + kCommandTable[i].name, l.rate, "> 0 a flap; 1 is usual");
+    const bool relative = i == kAmplitude || i == kFrequency;
+    if (relative && !(l.low > -1.0))
+      fault(name + "[0]", l.low, "> -1: the wings must beat; -0.25 is usual");
+  }
+  return faults;
+}
+
+WingbeatGuidance::WingbeatGuidance(std::shared_ptr<const PrescribedMotion> motion,
+                                   std::shared_ptr<const WindModel> wind,
+                                   const WingbeatSettings& settings, double t_start,
+                                   std::unique_ptr<CommandSource> source)
+    : motion_(std::move(motion)),
+      wind_(std::move(wind)),
+      settings_(checked(settings)),
+      phi_mean_(0.0),
+      abdomen_mean_(0.0),
+      source_(std::move(source)) {
+  for (int i = 0; i < kSamples; ++i) {
+    const JointAngles angles = motion_->at(t_start + i / (kSamples * settings_.frequency)).angles;
+    phi_mean_ += angles.phi.q / kSamples;
+    abdomen_mean_ += angles.theta_A.q / kSamples;
+  }
+  for (const CommandLimits& limits : settings_.limits)
+    filters_.emplace_back(settings_.time_constant, limits.rate);
+}
+
+PrescribedState WingbeatGuidance::start(double t) {
+  for (CommandFilter& filter : filters_) filter.reset();
+  applied_ = {};
+  report_ = {};
+  report_.phase = settings_.frequency * t;
+  if (source_) source_->start();
+  PrescribedState state = at(t);
+  state.wind = wind_->at(t, state.body.x, state.body.v, state.body.a);
+  return state;
+}
+
+PrescribedState WingbeatGuidance::next(const GuidanceInput& input) {
+  if (source_) {
+    const auto wanted = source_->next(
+        {input, report_.phase, settings_.frequency, settings_.dt, report_.command, applied_});
+    if (wanted) take(*wanted);
+    report_.lost = source_->lost();
+  }
+  for (std::size_t i = 0; i < kCommands; ++i) {
+    filters_[i].advance(report_.command.*kCommandTable[i].value, settings_.dt);
+    applied_[i] = filters_[i].value();
+    report_.applied.*kCommandTable[i].value = applied_[i].q;
+  }
+  PrescribedState state = at(input.t);
+  state.wind = windAhead(*wind_, input);
+  return state;
+}
+
+/// Within the bounds; a command that is not all finite numbers is not taken at all.
+void WingbeatGuidance::take(const WingbeatChange& wanted) {
+  WingbeatChange within;
+  bool clipped = false;
+  for (std::size_t i = 0; i < kCommands; ++i) {
+    const double value = wanted.*kCommandTable[i].value;
+    if (!std::isfinite(value)) {
+      ++report_.refused;
+      return;
+    }
+    const CommandLimits& limits = settings_.limits[i];
+    const double kept = std::clamp(value, limits.low, limits.high);
+    clipped = clipped || kept != value;
+    within.*kCommandTable[i].value = kept;
+  }
+  report_.clipped += clipped ? 1 : 0;
+  report_.command = within;
+}
+
+PrescribedState WingbeatGuidance::at(double t) {
+  const double tau = t + filters_[kFrequency].integral();
+  report_.phase = settings_.frequency * tau;
+  PrescribedState state = motion_->at(t);
+  const Coordinate& f = applied_[kFrequency];
+  if (tau != t || f.q != 0.0 || f.qd != 0.0) {
+    const JointAngles joints = motion_->at(tau).angles;
+    state.angles = {retimed(joints.phi, f), retimed(joints.psi, f), retimed(joints.theta, f),
+                    retimed(joints.theta_A, f)};
+  }
+  JointAngles& a = state.angles;
+  a.phi = swung(a.phi, phi_mean_, applied_[kAmplitude], applied_[kFlappingMean]);
+  a.psi = shifted(a.psi, applied_[kDeviationMean]);
+  a.theta_A = swung(a.theta_A, abdomen_mean_, applied_[kAbdomenAmplitude], applied_[kAbdomenMean]);
+  state.rest_angle = applied_[kRestAngle].q;
+  return state;
+}
+
+void WingbeatGuidance::memory(StateVisitor& state) {
+  for (std::size_t i = 0; i < kCommands; ++i) {
+    const std::string name = kCommandTable[i].name;
+    filters_[i].memory(state, ("filter_" + name).c_str());
+    state(("command_" + name).c_str(), report_.command.*kCommandTable[i].value);
+    state(("applied_" + name).c_str(), report_.applied.*kCommandTable[i].value);
+    if (state.loading()) applied_[i] = filters_[i].value();
+  }
+  state("phase", report_.phase);
+  state("clipped", report_.clipped);
+  state("refused", report_.refused);
+  state("lost", report_.lost);
+  if (source_) source_->memory(state);
+}
+
+}  // namespace monarch_flight
