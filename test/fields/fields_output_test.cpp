@@ -29,6 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
+const Vector3d kWind(0.3, -0.2, 0.1);  // NED [m/s]
+
 /// Keeps the steps that carry a flow.
 class Keeper : public StepSink {
  public:
