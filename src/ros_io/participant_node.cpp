@@ -70,7 +70,7 @@ ParticipantNode::ParticipantNode(const StopFlag& stop,
     : case_(readCase(Role::kGuidance)),
       participant_([this, make](const std::string& checkpoints) {
         return std::make_unique<KeptParticipant>(
-            Role::kGuidance, std::make_unique<GuidanceParticipant>(makeModel(case_), make(case_)),
+            roleName(Role::kGuidance), std::make_unique<GuidanceParticipant>(makeModel(case_), make(case_)),
             checkpoints);
       }),
       server_(ros::NodeHandle(kNamespace),

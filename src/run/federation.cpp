@@ -98,7 +98,10 @@ std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
   if (role == Role::kWing) solver = std::make_unique<WingParticipant>(model);
   if (role == Role::kGuidance)
     solver = std::make_unique<GuidanceParticipant>(model, makeGuidance(c, std::move(inbox)));
-  return std::make_unique<KeptParticipant>(role, std::move(solver), checkpoints);
+  // Beside a guidance node, which keeps a part of its own.
+  const bool beside = role == Role::kGuidance && c.guidance.kind == GuidanceKind::kNode;
+  return std::make_unique<KeptParticipant>(beside ? "wingbeat" : roleName(role), std::move(solver),
+                                           checkpoints);
 }
 
 RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& participants,
