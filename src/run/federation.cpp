@@ -68,11 +68,16 @@ CoupledModel makeModel(const Case& c) {
   if (!c.coupling.accelerations_known) {
     model.release = static_cast<std::uint32_t>(c.coupling.prescribed_steps) + 1;
   }
-  model.surface_every = c.output.surface_every;
-  model.fields_every = c.output.fields_every;
-  model.vortices_every = c.output.vortices_every;
-  model.q_threshold = vortexThreshold(c);
   return model;
+}
+
+PictureSettings picturesOf(const Case& c) {
+  PictureSettings pictures;
+  pictures.surface_every = c.output.surface_every;
+  pictures.vortices_every = c.output.vortices_every;
+  pictures.flow_every = c.output.fields_every;
+  pictures.q_threshold = vortexThreshold(c);
+  return pictures;
 }
 
 std::unique_ptr<Guidance> makeGuidance(const Case& c, std::shared_ptr<CommandInbox> inbox) {
@@ -107,7 +112,9 @@ std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
 RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& participants,
                   const std::vector<StepSink*>& sinks, RunControl& control, Keeper* keeper) {
   SinkChain chain(sinks);
-  Coordinator coordinator(makeModel(c), c.coupling, participants, run_id);
+  CouplingSettings settings = c.coupling;
+  settings.pictures = picturesOf(c);
+  Coordinator coordinator(makeModel(c), settings, participants, run_id);
   const CoupledOutcome outcome = coordinator.run({&chain}, control, keeper);
   RunResult result;
   result.failure = chain.failure().empty() ? outcome.failure : chain.failure();
