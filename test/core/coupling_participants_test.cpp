@@ -86,8 +86,8 @@ TEST_F(SolverParticipants, AnswersAreTheSolversOwn) {
   Request r = make(Phase::kIterate, 1, 0);
   r.loads = someLoads();
   const CoupledModel& m = f_.model;
-  const Interface start = m.prescribed(m.time(0));
-  const JointAngles angles = m.angles(r.t, r.interface.theta_R);
+  const Interface start = f_.prescribed(m.time(0));
+  const JointAngles angles = r.prescribed.anglesWith(r.interface.theta_R);
   const FlightSolver flight(m.insect, m.gravity, m.free, m.newmark);
   const BodyState body =
       flight.step(start.body, r.interface.body, r.interface.body, angles, r.loads);
