@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "fluid/blas.h"
 #include "fluid/flow.h"
 #include "fluid/projection.h"
 #include "fluid/shared_flow.h"
@@ -109,6 +110,7 @@ void NavierStokes::setKnownFlow(KnownFlow flow) {
 
 std::unique_ptr<FluidModel> makeNavierStokes(const Planform& planform, const Air& air,
                                              const GridSettings& settings) {
+  takeBlasBuffers();  // before the grid is there
   Grid grid = makeGrid(planform, settings);
   const double chord = planform.meanChord();
   if (flowProcesses() > 1) {

@@ -7,6 +7,7 @@
 #include <typeinfo>
 #include <utility>
 
+#include "fluid/blas.h"
 #include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
@@ -81,6 +82,7 @@ void endAll(MPI_Comm comm, const std::string& why) {
 }
 
 std::unique_ptr<NavierStokes> make(MPI_Comm comm, Grid grid, Air air, double length, double limit) {
+  takeBlasBuffers();  // before the grid is there
   share(comm, grid.x.face);
   share(comm, grid.y.face);
   share(comm, grid.z.face);
