@@ -55,7 +55,7 @@ class SinkChain : public StepSink {
 std::unique_ptr<FluidModel> makeFluid(const Case& c) {
   if (c.fluid == FluidKind::kQuasiSteady)
     return makeQuasiSteady(c.insect.planform, c.air, c.blade_element);
-  return makeNavierStokes(c.insect.planform, c.air, c.grid);
+  return makeNavierStokes(c.insect.planform, c.air, c.grid, c.watchdog_s);
 }
 
 CoupledModel makeModel(const Case& c) {
