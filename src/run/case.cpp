@@ -12,9 +12,11 @@ constexpr char kHeading[] =
     "# Resolved case: every key written out, presets and tables included (docs/case_files.md).\n";
 
 /// Checks that look across sections, and the motion with its explicit start values.
-void finishCase(Case& c, const CaseMotion& motion, const InitialValues& initial, Faults& faults) {
+void finishCase(Case& c, const CaseMotion& motion, const InitialValues& initial,
+                const CaseWind& wind, Faults& faults) {
   const StartValues start = startValues(c, initial, *motion.motion, faults);
   c.motion = std::make_shared<StartMotion>(motion.motion, start, c.time.t_start);
+  c.wind = windOf(c, wind, faults);
   checkGrid(c, faults);
 }
 
@@ -27,7 +29,7 @@ Case readCase(Section& root, Faults& faults) {
   const std::string kind = insect_section.textOf("kind");
   const auto insect = readInsect(std::move(insect_section), faults);
   if (insect) c.insect = *insect;
-  readFluid(root.section("fluid"), c);
+  const CaseWind wind = readFluid(root.section("fluid"), kind == "butterfly", c, faults);
   readGrid(root.section("grid"), c, faults);
   const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", faults);
   const InitialValues initial = readInitial(root);
@@ -42,7 +44,8 @@ Case readCase(Section& root, Faults& faults) {
   if (insect && motion.motion) checkMotion(c, motion, faults);
   c.guidance.wingbeat.dt = c.time.dt;
   if (root.clean()) checkGuidance(c, motion, faults);
-  if (root.clean()) finishCase(c, motion, initial, faults);
+  checkWind(c, wind, faults);
+  if (root.clean()) finishCase(c, motion, initial, wind, faults);
   return c;
 }
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <filesystem>
 
 #include "monarch_flight/insect/fourier_motion.h"
 #include "monarch_flight/insect/table_motion.h"
@@ -91,29 +90,8 @@ CaseMotion readFourier(Section& section, bool bare_wing) {
   return result;
 }
 
-/// The table of `file`, or the rows written out in the case; the resolved case holds the rows.
 NumericTable readTableRows(Section& section, TableKind kind) {
-  const auto& columns = TableMotion::columnsOf(kind);
-  const bool has_file = section.has("file");
-  if (has_file == section.has("rows")) {
-    section.take("file");
-    section.take("rows");
-    throw InputError(section.pathOf("file") + ": give either file (a CSV) or rows");
-  }
-  NumericTable table{section.pathOf("rows"), columns, {}};
-  if (has_file) {
-    const YAML::Node file = section.take("file");
-    if (!file.IsScalar()) throw InputError(section.pathOf("file") + ": must be a path; correct it");
-    table = readCsv(file.Scalar()).select(columns);
-    section.put("source", section.has("source")
-                              ? section.text("source")
-                              : std::filesystem::path(file.Scalar()).filename().string());
-    section.put("rows", table.rows);
-  } else {
-    section.put("source", section.has("source") ? section.text("source") : "rows in the case");
-    table.rows = section.rows("rows", columns.size());
-  }
-  return table;
+  return readRows(section, TableMotion::columnsOf(kind));
 }
 
 CaseMotion readTable(Section& section, Faults& faults) {

@@ -20,7 +20,7 @@ constexpr double kRounding = 1e-6;  // of a time, over the time step
 
 }  // namespace
 
-void readFluid(Section section, Case& c) {
+CaseWind readFluid(Section section, bool mirrored, Case& c, Faults& faults) {
   const std::string solver = section.choice("solver", {"navier_stokes", "quasi_steady"});
   c.fluid = solver == "quasi_steady" ? FluidKind::kQuasiSteady : FluidKind::kNavierStokes;
   const std::string variant = section.choice("blade_element", {"sane_dickinson", "whitney_wood"});
@@ -29,10 +29,9 @@ void readFluid(Section section, Case& c) {
   c.air.rho = section.number("density", {Bound::kPositive, "kg/m3", "air at 15 C has 1.225"});
   c.air.mu = section.number("viscosity", {Bound::kPositive, "Pa s", "air at 15 C has 1.8e-5"});
   c.gravity = section.number("gravity", {Bound::kNonNegative, "m/s2", "9.81, or 0 for none"});
-  const Eigen::Vector3d wind_I = section.vector3("wind", "m/s");
-  c.wind = std::make_shared<SteadyWind>(wind_I);
-  c.wind_peak = wind_I.norm();
+  const CaseWind wind = readWind(section, mirrored, faults);
   section.finish();
+  return wind;
 }
 
 void readGrid(Section section, Case& c, Faults& faults) {

@@ -43,7 +43,6 @@ struct Case {
   Insect insect{"", true, 0, {}, 0, 0, 0, 0, {}, {}, {}, 0, 0, 0, Planform::rectangle(1, 1, 0)};
   Air air;
   std::shared_ptr<const WindModel> wind = std::make_shared<SteadyWind>();
-  double wind_peak = 0.0;        ///< largest speed of the wind [m/s]
   double gravity = 9.81;         ///< [m/s^2], along +z of NED
   FluidKind fluid = FluidKind::kNavierStokes;
   BladeElementVariant blade_element = BladeElementVariant::kSaneDickinson;
