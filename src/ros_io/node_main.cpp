@@ -98,6 +98,12 @@ int participantMain(Role role, int argc, char** argv) {
                   [role] { return ParticipantNode(role, stop_requested).run(); });
 }
 
+int guidanceMain(int argc, char** argv,
+                 const std::function<std::unique_ptr<Guidance>(const Case&)>& make) {
+  return nodeMain(roleName(Role::kGuidance), argc, argv,
+                  [&make] { return ParticipantNode(stop_requested, make).run(); });
+}
+
 int inProcessMain(int argc, char** argv) {
   const Processes processes(&argc, &argv);
   if (processes.rank() > 0) return serveFlow(processes);
@@ -105,6 +111,10 @@ int inProcessMain(int argc, char** argv) {
     const RunParameters parameters = runParameters(argc, argv);
     if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
+    if (c.guidance.kind == GuidanceKind::kNode)
+      throw InputError(
+          "guidance/type = node: a run in one process has no nodes; choose another type, or fly with "
+          "nodes");
     if (parameters.plan) {
       const std::string plan = plannedRun(parameters, c, false);
       std::cout << (plan.empty() ? "quasi-steady air: no grid to plan\n" : plan);

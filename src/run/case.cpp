@@ -31,6 +31,7 @@ Case readCase(Section& root, Faults& faults) {
   readGrid(root.section("grid"), c, faults);
   const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", faults);
   const InitialValues initial = readInitial(root);
+  c.guidance = readGuidance(root.section("guidance"), motion.frequency, faults);
   c.free = readFree(root.section("free"));
   readTime(root.section("time"), motion.frequency, c);
   readCoupling(root.section("coupling"), insect ? insect->planform.meanChord() : 1.0, c, faults);
@@ -39,6 +40,8 @@ Case readCase(Section& root, Faults& faults) {
   root.finish();
   if (insect) checkFree(c, faults);
   if (insect && motion.motion) checkMotion(c, motion, faults);
+  c.guidance.wingbeat.dt = c.time.dt;
+  if (root.clean()) checkGuidance(c, motion, faults);
   if (root.clean()) finishCase(c, motion, initial, faults);
   return c;
 }

@@ -31,6 +31,7 @@ void readFluid(Section section, Case& c);
 void readGrid(Section section, Case& c, Faults& faults);
 CaseMotion readMotion(Section section, bool bare_wing, Faults& faults);
 InitialValues readInitial(Section& root);
+GuidanceSettings readGuidance(Section section, double frequency, Faults& faults);
 FreeCoordinates readFree(Section section);
 void readTime(Section section, double frequency, Case& c);
 void readCoupling(Section section, double mean_chord, Case& c, Faults& faults);
@@ -41,6 +42,8 @@ void readOutput(Section section, Case& c);
 void checkFree(const Case& c, Faults& faults);
 /// The motion must reach over the whole run; table kinds must suit the insect.
 void checkMotion(const Case& c, const CaseMotion& motion, Faults& faults);
+/// What leads the motion must suit it and the run.
+void checkGuidance(const Case& c, const CaseMotion& motion, Faults& faults);
 /// Start values must belong to free coordinates; returns them completed from the motion at t_start.
 StartValues startValues(const Case& c, const InitialValues& initial, const PrescribedMotion& motion,
                         Faults& faults);

@@ -6,6 +6,7 @@
 #include "monarch_flight/coupling/participants.h"
 #include "monarch_flight/fluid/navier_stokes.h"
 #include "monarch_flight/fluid/quasi_steady.h"
+#include "monarch_flight/guidance/replay_guidance.h"
 #include "monarch_flight/run/kept_participant.h"
 #include "monarch_flight/run/wing_speeds.h"
 
@@ -74,20 +75,33 @@ CoupledModel makeModel(const Case& c) {
   return model;
 }
 
-std::unique_ptr<Guidance> makeGuidance(const Case& c) {
-  return std::make_unique<MotionGuidance>(c.motion, c.wind);
+std::unique_ptr<Guidance> makeGuidance(const Case& c, std::shared_ptr<CommandInbox> inbox) {
+  const GuidanceSettings& g = c.guidance;
+  if (g.kind == GuidanceKind::kReplay) return std::make_unique<ReplayGuidance>(c.motion, g.replay);
+  if (g.kind == GuidanceKind::kMotion) {
+    const double frequency = c.time.period > 0.0 ? 1.0 / c.time.period : 0.0;
+    return std::make_unique<MotionGuidance>(c.motion, c.wind, frequency);
+  }
+  std::unique_ptr<CommandSource> source;
+  if (inbox) source = std::make_unique<PostedCommands>(std::move(inbox));
+  return std::make_unique<WingbeatGuidance>(c.motion, c.wind, g.wingbeat, c.time.t_start,
+                                            std::move(source));
 }
 
 std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
-                                             const std::string& checkpoints) {
+                                             const std::string& checkpoints,
+                                             std::shared_ptr<CommandInbox> inbox) {
   const CoupledModel model = makeModel(c);
   std::unique_ptr<SolverParticipant> solver;
   if (role == Role::kFluid) solver = std::make_unique<FluidParticipant>(model, makeFluid(c));
   if (role == Role::kFlight) solver = std::make_unique<FlightParticipant>(model);
   if (role == Role::kWing) solver = std::make_unique<WingParticipant>(model);
   if (role == Role::kGuidance)
-    solver = std::make_unique<GuidanceParticipant>(model, makeGuidance(c));
-  return std::make_unique<KeptParticipant>(role, std::move(solver), checkpoints);
+    solver = std::make_unique<GuidanceParticipant>(model, makeGuidance(c, std::move(inbox)));
+  // Beside a guidance node, which keeps a part of its own.
+  const bool beside = role == Role::kGuidance && c.guidance.kind == GuidanceKind::kNode;
+  return std::make_unique<KeptParticipant>(beside ? "wingbeat" : roleName(role), std::move(solver),
+                                           checkpoints);
 }
 
 RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& participants,
@@ -101,8 +115,7 @@ RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& parti
   return result;
 }
 
-InProcessFederation::InProcessFederation(const Case& c, const std::string& checkpoints)
-    : case_(c) {
+InProcessFederation::InProcessFederation(const Case& c, const std::string& checkpoints) : case_(c) {
   for (std::size_t i = 0; i < kRoles; ++i)
     participants_[i] = makeParticipant(static_cast<Role>(i), c, checkpoints);
 }
