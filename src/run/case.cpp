@@ -1,5 +1,7 @@
 #include "monarch_flight/run/case.h"
 
+#include <limits>
+
 #include "monarch_flight/run/sha256.h"
 #include "run/case_document.h"
 #include "run/case_parts.h"
@@ -15,6 +17,7 @@ constexpr char kHeading[] =
 void finishCase(Case& c, const CaseMotion& motion, const InitialValues& initial, Faults& faults) {
   const StartValues start = startValues(c, initial, *motion.motion, faults);
   c.motion = std::make_shared<StartMotion>(motion.motion, start, c.time.t_start);
+  checkTimeStep(c, faults);
   checkGrid(c, faults);
 }
 
@@ -29,7 +32,9 @@ Case readCase(Section& root, Faults& faults) {
   if (insect) c.insect = *insect;
   readFluid(root.section("fluid"), c);
   readGrid(root.section("grid"), c, faults);
-  const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", faults);
+  const double chord =
+      insect ? insect->planform.meanChord() : std::numeric_limits<double>::infinity();
+  const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", chord, faults);
   const InitialValues initial = readInitial(root);
   c.free = readFree(root.section("free"));
   readTime(root.section("time"), motion.frequency, c);
@@ -38,6 +43,7 @@ Case readCase(Section& root, Faults& faults) {
   c.watchdog_s = root.number("watchdog_s", {Bound::kPositive, "s", "60 is usual"});
   root.finish();
   if (insect) checkFree(c, faults);
+  if (insect) checkMirrored(c, motion, initial, faults);
   if (insect && motion.motion) checkMotion(c, motion, faults);
   if (root.clean()) finishCase(c, motion, initial, faults);
   return c;

@@ -15,6 +15,7 @@ struct CaseMotion {
   bool is_table = false;
   bool is_wing_table = false;
   double t_begin = 0.0, t_end = 0.0;  ///< reach of a table [s]
+  std::string lateral;  ///< fault of a motion with a lateral velocity; "": it has none
 };
 
 /// Explicit start values as written; none: the prescribed motion's.
@@ -29,7 +30,8 @@ std::optional<Insect> readInsect(Section section, Faults& faults);
 std::optional<Planform> readPlanform(Section section, Faults& faults);
 void readFluid(Section section, Case& c);
 void readGrid(Section section, Case& c, Faults& faults);
-CaseMotion readMotion(Section section, bool bare_wing, Faults& faults);
+/// `chord`: mean chord of the wing, infinite when it is not known [m].
+CaseMotion readMotion(Section section, bool bare_wing, double chord, Faults& faults);
 InitialValues readInitial(Section& root);
 FreeCoordinates readFree(Section section);
 void readTime(Section section, double frequency, Case& c);
@@ -41,6 +43,11 @@ void readOutput(Section section, Case& c);
 void checkFree(const Case& c, Faults& faults);
 /// The motion must reach over the whole run; table kinds must suit the insect.
 void checkMotion(const Case& c, const CaseMotion& motion, Faults& faults);
+/// An insect of which one wing is solved, and mirrored, can have no lateral velocity in its air.
+void checkMirrored(const Case& c, const CaseMotion& motion, const InitialValues& initial,
+                   Faults& faults);
+/// The time step must resolve the motion: turns of the wing and the swings of a free hinge.
+void checkTimeStep(const Case& c, Faults& faults);
 /// Start values must belong to free coordinates; returns them completed from the motion at t_start.
 StartValues startValues(const Case& c, const InitialValues& initial, const PrescribedMotion& motion,
                         Faults& faults);
