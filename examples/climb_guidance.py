@@ -27,7 +27,8 @@ class ClimbGuidance:
         vz = flown.velocity[2] - wanted.velocity[2]
         pitch = flown.theta_b[0] - wanted.theta_b[0]
         flaps = self.frequency * (request.t - self.t)
-        self.t, self.vx_sum, self.vz_sum = request.t, self.vx_sum + vx * flaps, self.vz_sum + vz * flaps
+        self.t, self.vx_sum, self.vz_sum = (
+            request.t, self.vx_sum + vx * flaps, self.vz_sum + vz * flaps)
         off = (vx, vz, pitch, self.vx_sum, self.vz_sum)
         return {name: -sum(k * x for k, x in zip(gains, off)) for name, gains in GAINS.items()}
 
