@@ -38,10 +38,10 @@ Case readCase(Section& root, Faults& faults) {
       insect ? insect->planform.meanChord() : std::numeric_limits<double>::infinity();
   const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", chord, faults);
   const InitialValues initial = readInitial(root);
-  c.guidance = readGuidance(root.section("guidance"), motion.frequency, faults);
   c.free = readFree(root.section("free"));
   readTime(root.section("time"), motion.frequency, c);
   readCoupling(root.section("coupling"), insect ? insect->planform.meanChord() : 1.0, c, faults);
+  c.guidance = readGuidance(root.section("guidance"), motion.frequency, c, faults);
   readOutput(root.section("output"), c);
   c.watchdog_s = root.number("watchdog_s", {Bound::kPositive, "s", "60 is usual"});
   root.finish();

@@ -4,6 +4,7 @@
 
 #include "monarch_flight/guidance/replay_guidance.h"
 #include "monarch_flight/math/errors.h"
+#include "run/case_controller.h"
 #include "run/case_parts.h"
 
 namespace monarch_flight {
@@ -55,7 +56,7 @@ std::shared_ptr<const NumericTable> readReplay(Section& section) {
 
 }  // namespace
 
-GuidanceSettings readGuidance(Section section, double frequency, Faults& faults) {
+GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults) {
   GuidanceSettings settings;
   const std::string kind = section.choice("type", kKinds);
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
@@ -75,6 +76,11 @@ GuidanceSettings readGuidance(Section section, double frequency, Faults& faults)
   } else {
     section.take("file");
     section.take("rows");
+  }
+  if (settings.kind == GuidanceKind::kController) {
+    settings.controller = readController(section.section("controller"), c, faults);
+  } else {
+    section.take("controller");  // of a controlled case that is flown otherwise
   }
   section.finish();
   return settings;

@@ -56,7 +56,8 @@ void readGrid(Section section, Case& c, Faults& faults);
 /// `chord`: mean chord of the wing, infinite when it is not known [m].
 CaseMotion readMotion(Section section, bool bare_wing, double chord, Faults& faults);
 InitialValues readInitial(Section& root);
-GuidanceSettings readGuidance(Section section, double frequency, Faults& faults);
+/// `c`: with what is free, time and coupling read.
+GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults);
 FreeCoordinates readFree(Section section);
 void readTime(Section section, double frequency, Case& c);
 void readCoupling(Section section, double mean_chord, Case& c, Faults& faults);
