@@ -31,10 +31,11 @@ Case readCase(Section& root, Faults& faults) {
   readGrid(root.section("grid"), c, faults);
   const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", faults);
   const InitialValues initial = readInitial(root);
-  c.guidance = readGuidance(root.section("guidance"), motion.frequency, faults);
+  Section guidance = root.section("guidance");
   c.free = readFree(root.section("free"));
   readTime(root.section("time"), motion.frequency, c);
   readCoupling(root.section("coupling"), insect ? insect->planform.meanChord() : 1.0, c, faults);
+  c.guidance = readGuidance(std::move(guidance), motion.frequency, c, faults);
   readOutput(root.section("output"), c);
   c.watchdog_s = root.number("watchdog_s", {Bound::kPositive, "s", "60 is usual"});
   root.finish();

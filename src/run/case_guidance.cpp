@@ -4,6 +4,7 @@
 
 #include "monarch_flight/guidance/replay_guidance.h"
 #include "monarch_flight/math/errors.h"
+#include "run/case_controller.h"
 #include "run/case_parts.h"
 
 namespace monarch_flight {
@@ -53,9 +54,23 @@ std::shared_ptr<const NumericTable> readReplay(Section& section) {
   return std::make_shared<NumericTable>(table);
 }
 
+/// The law, whose gains belong to the filters that it was made with.
+std::shared_ptr<const ControllerSettings> readLaw(Section& section, double time_constant,
+                                                  const Case& c, Faults& faults) {
+  const auto law = readController(section.section("controller"), c, faults);
+  if (!law) return nullptr;
+  if (std::abs(law->time_constant - time_constant) > 1e-6 * time_constant) {
+    section.fault("time_constant", " = " + exactText(time_constant) + " flaps: must be " +
+                                       exactText(law->time_constant) +
+                                       ", for which the controller's gains were made; or make "
+                                       "others (scripts/trim control:=true time_constant:=...)");
+  }
+  return std::make_shared<ControllerSettings>(*law);
+}
+
 }  // namespace
 
-GuidanceSettings readGuidance(Section section, double frequency, Faults& faults) {
+GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults) {
   GuidanceSettings settings;
   const std::string kind = section.choice("type", kKinds);
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
@@ -63,8 +78,9 @@ GuidanceSettings readGuidance(Section section, double frequency, Faults& faults)
   }
   const double period = frequency > 0.0 ? 1.0 / frequency : 1.0;
   settings.wingbeat.frequency = frequency;
-  settings.wingbeat.time_constant =
-      section.number("time_constant", {Bound::kPositive, "flaps", "0.25 is usual"}) * period;
+  const double time_constant =
+      section.number("time_constant", {Bound::kPositive, "flaps", "0.25 is usual"});
+  settings.wingbeat.time_constant = time_constant * period;
   readLimits(section, period, settings.wingbeat);
   if (settings.kind == GuidanceKind::kReplay) {
     try {
@@ -75,6 +91,11 @@ GuidanceSettings readGuidance(Section section, double frequency, Faults& faults)
   } else {
     section.take("file");
     section.take("rows");
+  }
+  if (settings.kind == GuidanceKind::kController) {
+    settings.controller = readLaw(section, time_constant, c, faults);
+  } else {
+    section.take("controller");
   }
   section.finish();
   return settings;

@@ -31,7 +31,8 @@ void readFluid(Section section, Case& c);
 void readGrid(Section section, Case& c, Faults& faults);
 CaseMotion readMotion(Section section, bool bare_wing, Faults& faults);
 InitialValues readInitial(Section& root);
-GuidanceSettings readGuidance(Section section, double frequency, Faults& faults);
+/// Behind motion, free, time and coupling, which a controller is checked against.
+GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults);
 FreeCoordinates readFree(Section section);
 void readTime(Section section, double frequency, Case& c);
 void readCoupling(Section section, double mean_chord, Case& c, Faults& faults);

@@ -6,6 +6,7 @@
 #include "monarch_flight/coupling/participants.h"
 #include "monarch_flight/fluid/navier_stokes.h"
 #include "monarch_flight/fluid/quasi_steady.h"
+#include "monarch_flight/guidance/flight_controller.h"
 #include "monarch_flight/guidance/replay_guidance.h"
 #include "monarch_flight/run/kept_participant.h"
 #include "monarch_flight/run/wing_speeds.h"
@@ -83,7 +84,11 @@ std::unique_ptr<Guidance> makeGuidance(const Case& c, std::shared_ptr<CommandInb
     return std::make_unique<MotionGuidance>(c.motion, c.wind, frequency);
   }
   std::unique_ptr<CommandSource> source;
-  if (inbox) source = std::make_unique<PostedCommands>(std::move(inbox));
+  if (g.kind == GuidanceKind::kController) {
+    source = std::make_unique<FlightController>(*g.controller);
+  } else if (inbox) {
+    source = std::make_unique<PostedCommands>(std::move(inbox));
+  }
   return std::make_unique<WingbeatGuidance>(c.motion, c.wind, g.wingbeat, c.time.t_start,
                                             std::move(source));
 }

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "monarch_flight/guidance/controller_settings.h"
 #include "monarch_flight/guidance/wingbeat_guidance.h"
 #include "monarch_flight/insect/numeric_table.h"
 
@@ -19,6 +20,7 @@ enum class GuidanceKind {
 struct GuidanceSettings {
   GuidanceKind kind = GuidanceKind::kMotion;
   WingbeatSettings wingbeat;                   ///< unless kMotion or kReplay
+  std::shared_ptr<const ControllerSettings> controller;  ///< of kController
   std::shared_ptr<const NumericTable> replay;  ///< ReplayGuidance::columns(), of kReplay
 };
 
