@@ -15,6 +15,7 @@
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/participant_node.h"
 #include "monarch_flight/run/federation.h"
+#include "monarch_flight/run/remarks.h"
 #include "monarch_flight/viz/urdf.h"
 
 namespace monarch_flight {
@@ -118,6 +119,8 @@ int inProcessMain(int argc, char** argv) {
     if (parameters.plan) {
       const std::string plan = plannedRun(parameters, c, false);
       std::cout << (plan.empty() ? "quasi-steady air: no grid to plan\n" : plan);
+      for (const std::string& remark : runRemarks(c, c.time.steps))
+        std::cout << remark << std::endl;
       return static_cast<int>(kExitComplete);
     }
     requireProcesses(parameters, c);

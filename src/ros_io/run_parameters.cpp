@@ -203,7 +203,7 @@ std::string plannedRun(const RunParameters& parameters, const Case& c, bool node
   const int here = parameters.ranks == flowProcesses() ? flowProcessesHere() : parameters.ranks;
   const RunPlan plan = planRun(c, parameters.ranks, here);
   requirePossible(plan);
-  if (nodes) requireInTime(plan, c.watchdog_s);
+  if (nodes || parameters.ranks > 1) requireInTime(plan, c.watchdog_s);
   return describe(plan);
 }
 

@@ -55,17 +55,16 @@ std::shared_ptr<const NumericTable> readReplay(Section& section) {
 }
 
 /// The law, whose gains belong to the filters that it was made with.
-std::shared_ptr<const ControllerSettings> readLaw(Section& section, double time_constant,
-                                                  const Case& c, Faults& faults) {
-  const auto law = readController(section.section("controller"), c, faults);
-  if (!law) return nullptr;
-  if (std::abs(law->time_constant - time_constant) > 1e-6 * time_constant) {
+std::optional<ControllerSettings> readLaw(Section& section, double time_constant, const Case& c,
+                                          Faults& faults) {
+  auto law = readController(section.section("controller"), c, faults);
+  if (law && std::abs(law->time_constant - time_constant) > 1e-6 * time_constant) {
     section.fault("time_constant", " = " + exactText(time_constant) + " flaps: must be " +
                                        exactText(law->time_constant) +
                                        ", for which the controller's gains were made; or make "
                                        "others (scripts/trim control:=true time_constant:=...)");
   }
-  return std::make_shared<ControllerSettings>(*law);
+  return law;
 }
 
 }  // namespace
@@ -95,7 +94,7 @@ GuidanceSettings readGuidance(Section section, double frequency, const Case& c, 
   if (settings.kind == GuidanceKind::kController) {
     settings.controller = readLaw(section, time_constant, c, faults);
   } else {
-    section.take("controller");
+    section.take("controller");  // of a controlled case that is flown otherwise
   }
   section.finish();
   return settings;

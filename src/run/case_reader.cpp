@@ -282,6 +282,29 @@ Section Section::section(const std::string& key) {
                  !good);
 }
 
+std::vector<Section> Section::sections(const std::string& key) {
+  std::vector<Section> result;
+  const YAML::Node node = take(key);
+  YAML::Node resolved(YAML::NodeType::Sequence);
+  resolved_[key] = resolved;
+  if (!node.IsDefined()) return result;
+  if (!node.IsSequence()) {
+    fault(key, " = " + shown(node) + ": must be a list of sections; correct it");
+    return result;
+  }
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::string name = key + "[" + std::to_string(i) + "]";
+    if (!node[i].IsMap()) {
+      fault(name, " = " + shown(node[i]) + ": must be a section of keys; correct it");
+      continue;
+    }
+    YAML::Node one(YAML::NodeType::Map);
+    resolved.push_back(one);
+    result.push_back(Section(node[i], pathOf(name), faults_, one, false));
+  }
+  return result;
+}
+
 Section Section::putSection(const std::string& key) {
   YAML::Node resolved(YAML::NodeType::Map);
   resolved_[key] = resolved;

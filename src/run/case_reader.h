@@ -69,6 +69,8 @@ class Section {
   /// A sequence of rows of `columns` numbers each.
   std::vector<std::vector<double>> rows(const std::string& key, std::size_t columns);
   Section section(const std::string& key);
+  /// A list of sections; none when the key is missing.
+  std::vector<Section> sections(const std::string& key);
 
   /// Marks a key as known without writing it; returns its node.
   YAML::Node take(const std::string& key);

@@ -95,8 +95,12 @@ void checkTwins(const YAML::Node& map, const std::string& above, Faults& faults)
   std::set<std::string> seen;
   for (const auto& entry : map) {
     const std::string key = above + entry.first.Scalar();
+    const YAML::Node& value = entry.second;
     if (!seen.insert(key).second) faults.add(key + " is given twice; remove one of them");
-    if (entry.second.IsMap()) checkTwins(entry.second, key + "/", faults);
+    if (value.IsMap()) checkTwins(value, key + "/", faults);
+    for (std::size_t i = 0; value.IsSequence() && i < value.size(); ++i) {
+      if (value[i].IsMap()) checkTwins(value[i], key + "[" + std::to_string(i) + "]/", faults);
+    }
   }
 }
 

@@ -56,7 +56,7 @@ class SinkChain : public StepSink {
 std::unique_ptr<FluidModel> makeFluid(const Case& c) {
   if (c.fluid == FluidKind::kQuasiSteady)
     return makeQuasiSteady(c.insect.planform, c.air, c.blade_element);
-  return makeNavierStokes(c.insect.planform, c.air, c.grid);
+  return makeNavierStokes(c.insect.planform, c.air, c.grid, c.watchdog_s);
 }
 
 CoupledModel makeModel(const Case& c) {
@@ -69,11 +69,16 @@ CoupledModel makeModel(const Case& c) {
   if (!c.coupling.accelerations_known) {
     model.release = static_cast<std::uint32_t>(c.coupling.prescribed_steps) + 1;
   }
-  model.surface_every = c.output.surface_every;
-  model.fields_every = c.output.fields_every;
-  model.vortices_every = c.output.vortices_every;
-  model.q_threshold = vortexThreshold(c);
   return model;
+}
+
+PictureSettings picturesOf(const Case& c) {
+  PictureSettings pictures;
+  pictures.surface_every = c.output.surface_every;
+  pictures.vortices_every = c.output.vortices_every;
+  pictures.flow_every = c.output.fields_every;
+  pictures.q_threshold = vortexThreshold(c);
+  return pictures;
 }
 
 std::unique_ptr<Guidance> makeGuidance(const Case& c, std::shared_ptr<CommandInbox> inbox) {
@@ -84,11 +89,8 @@ std::unique_ptr<Guidance> makeGuidance(const Case& c, std::shared_ptr<CommandInb
     return std::make_unique<MotionGuidance>(c.motion, c.wind, frequency);
   }
   std::unique_ptr<CommandSource> source;
-  if (g.kind == GuidanceKind::kController) {
-    source = std::make_unique<FlightController>(*g.controller);
-  } else if (inbox) {
-    source = std::make_unique<PostedCommands>(std::move(inbox));
-  }
+  if (g.controller) source = std::make_unique<FlightController>(*g.controller);
+  if (inbox) source = std::make_unique<PostedCommands>(std::move(inbox));
   return std::make_unique<WingbeatGuidance>(c.motion, c.wind, g.wingbeat, c.time.t_start,
                                             std::move(source));
 }
@@ -112,7 +114,9 @@ std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
 RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& participants,
                   const std::vector<StepSink*>& sinks, RunControl& control, Keeper* keeper) {
   SinkChain chain(sinks);
-  Coordinator coordinator(makeModel(c), c.coupling, participants, run_id);
+  CouplingSettings settings = c.coupling;
+  settings.pictures = picturesOf(c);
+  Coordinator coordinator(makeModel(c), settings, participants, run_id);
   const CoupledOutcome outcome = coordinator.run({&chain}, control, keeper);
   RunResult result;
   result.failure = chain.failure().empty() ? outcome.failure : chain.failure();

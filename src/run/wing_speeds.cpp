@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace monarch_flight {
@@ -25,9 +26,11 @@ std::vector<Eigen::Vector3d> outline(const Planform& wing) {
 
 double wholeRun(const TimeGrid& time) { return time.steps * time.dt; }
 
-}  // namespace
+/// The air that a body meets at t [s].
+using AirAt = std::function<Wind(double t, const BodyState& body)>;
 
-WingSpeeds peakWingSpeeds(const Case& c, double duration) {
+/// Over `duration` from the start of the run.
+WingSpeeds speedsThrough(const AirAt& air, const Case& c, double duration) {
   constexpr std::uint32_t kMost = 2000;
   const double steps = std::max(1.0, std::ceil(duration / c.time.dt * (1.0 - 1e-12)));
   const auto intervals = static_cast<std::uint32_t>(std::min<double>(kMost, steps));
@@ -37,14 +40,25 @@ WingSpeeds peakWingSpeeds(const Case& c, double duration) {
     const double t = c.time.t_start + duration * i / intervals;
     const PrescribedState state = c.motion->at(t);
     const BodyState& body = state.body;
-    const WingMotion wing = relativeTo(c.wind->at(t, body.x, body.v, body.a),
-                                       rightWingMotion(c.insect, body, state.angles));
+    const WingMotion wing = relativeTo(air(t, body), rightWingMotion(c.insect, body, state.angles));
     const Eigen::Vector3d& root = wing.v_W;
     peak.root = std::max(peak.root, root.norm());
+    peak.turn = std::max(peak.turn, wing.omega_W.norm());
     for (const Eigen::Vector3d& point : points) {
       peak.outline = std::max(peak.outline, (root + wing.omega_W.cross(point)).norm());
     }
   }
+  return peak;
+}
+
+}  // namespace
+
+WingSpeeds peakWingSpeeds(const Case& c, double duration) {
+  const WindRange wind = c.wind->range();
+  const Wind middle{wind.middle, {0, 0, 0}};
+  WingSpeeds peak = speedsThrough([&](double, const BodyState&) { return middle; }, c, duration);
+  peak.root += wind.spread;
+  peak.outline += wind.spread;
   return peak;
 }
 
@@ -53,14 +67,19 @@ WingSpeeds peakWingSpeeds(const Case& c) {
   WingSpeeds peak = peakWingSpeeds(c, whole);
   if (c.time.period > 0.0 && c.time.period < whole) {  // many flaps: few samples fall into each
     const WingSpeeds flap = peakWingSpeeds(c, c.time.period);
-    peak = {std::max(peak.root, flap.root), std::max(peak.outline, flap.outline)};
+    peak = {std::max(peak.root, flap.root), std::max(peak.outline, flap.outline),
+            std::max(peak.turn, flap.turn)};
   }
   return peak;
 }
 
 double referenceSpeed(const Case& c) {
   const double whole = wholeRun(c.time);
-  return peakWingSpeeds(c, c.time.period > 0.0 ? std::min(c.time.period, whole) : whole).outline;
+  const double duration = c.time.period > 0.0 ? std::min(c.time.period, whole) : whole;
+  const auto met = [&c](double t, const BodyState& body) {
+    return c.wind->at(t, body.x, body.v, body.a);
+  };
+  return speedsThrough(met, c, duration).outline;
 }
 
 double vortexThreshold(const Case& c) {

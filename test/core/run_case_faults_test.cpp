@@ -104,7 +104,7 @@ TEST_F(CaseTest, NonPhysicalValues) {
   expectHas(faultsWith("hinge", "BN: [0]", "BN: []"), "motion/phi_deg/BN has 0 values");
   expectHas(faultsWith("climb", "velocity: [1.3, 0, -0.562]\n  theta_B",
                        "velocity: [1.3, 0.1, -0.562]\n  theta_B"),
-            "initial/velocity[1] = 0.1: this coordinate is not free");
+            "initial/velocity[1] = 0.1 m/s: must be 0 while only one wing is solved and mirrored");
   expectHas(faultsWith("hinge", "free:", "initial: {theta_B: 0.1}\nfree:"),
             "initial/theta_B = 0.1: free/pitch is false");
 }

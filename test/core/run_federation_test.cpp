@@ -243,7 +243,7 @@ TEST(Federation, MakesTheFluidThatTheCaseNames) {
   EXPECT_EQ(model.steps, c.time.steps);
   EXPECT_EQ(model.newmark.dt, c.time.dt);
   EXPECT_EQ(model.gravity, c.gravity);
-  EXPECT_GT(model.q_threshold, 0.0);
+  EXPECT_GT(picturesOf(c).q_threshold, 0.0);
 }
 
 }  // namespace

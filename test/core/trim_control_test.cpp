@@ -206,7 +206,7 @@ TEST_F(ControlCase, SectionIsReadAsItWasDesigned) {
                            "200 steps a flap", "Floquet multipliers"})
     expectHas(section, part);
   std::string text = d.c.resolved_yaml;
-  const std::size_t from = text.find("guidance:"), to = text.find("\nfree:");
+  const std::size_t from = text.find("guidance:"), to = text.find("\noutput:");
   ASSERT_LT(from, to);
   text.erase(from, to + 1 - from);
   const Case read = caseFromText(text + section, "controlled", {}, CONFIG_DIR);

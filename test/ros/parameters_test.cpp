@@ -105,6 +105,16 @@ TEST(RunParameters, BrokenCommandLinesAreReadOrRefused) {
   EXPECT_GT(refused, 1000);
 }
 
+TEST(PlannedRun, NodesAndSeveralProcessesMustWaitLongEnough) {
+  RunParameters p = runParameters({{"case", "tethered_fwuav"}, {"grid", "preview"}}, "");
+  Case c = loadCase(p);
+  c.watchdog_s = 1e-6;
+  EXPECT_NO_THROW(plannedRun(p, c, false));
+  EXPECT_THROW(plannedRun(p, c, true), InputError);
+  p.ranks = 2;
+  EXPECT_THROW(plannedRun(p, c, false), InputError);
+}
+
 TEST(OutputDirectory, StartsWhereTheRunWasCalled) {
   Case c;
   c.name = "climb";

@@ -23,7 +23,8 @@ struct TimeGrid {
   double period = 0.0;           ///< flapping period, or 0 for a motion without one [s]
   double t_start = 0.0;          ///< time of step 0 [s]
   double dt = 0.0;               ///< [s]
-  std::uint32_t steps = 0;       ///< steps of the whole run
+  std::uint32_t steps = 0;       ///< whole steps of the whole run
+  double remainder = 0.0;        ///< steps that the length asked for has more, below 1; not flown
   double time(std::uint32_t step) const { return t_start + step * dt; }
   /// Steps per flap, or 0 without a period.
   double stepsPerFlap() const { return period > 0 ? period / dt : 0.0; }
@@ -43,7 +44,6 @@ struct Case {
   Insect insect{"", true, 0, {}, 0, 0, 0, 0, {}, {}, {}, 0, 0, 0, Planform::rectangle(1, 1, 0)};
   Air air;
   std::shared_ptr<const WindModel> wind = std::make_shared<SteadyWind>();
-  double wind_peak = 0.0;        ///< largest speed of the wind [m/s]
   double gravity = 9.81;         ///< [m/s^2], along +z of NED
   FluidKind fluid = FluidKind::kNavierStokes;
   BladeElementVariant blade_element = BladeElementVariant::kSaneDickinson;

@@ -19,6 +19,8 @@ std::unique_ptr<FluidModel> makeFluid(const Case& c);
 /// What owns the motion of the case. `inbox`: where the commands of a person or a node arrive.
 std::unique_ptr<Guidance> makeGuidance(const Case& c,
                                        std::shared_ptr<CommandInbox> inbox = nullptr);
+/// The pictures that the case asks for.
+PictureSettings picturesOf(const Case& c);
 /// What coordinator and participants need to know of the case.
 CoupledModel makeModel(const Case& c);
 /// The in-process participant for a role; the ROS nodes wrap exactly these. `checkpoints`: folder in

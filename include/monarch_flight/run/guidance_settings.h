@@ -1,6 +1,6 @@
 #pragma once
 #include <memory>
-#include <string>
+#include <optional>
 
 #include "monarch_flight/guidance/controller_settings.h"
 #include "monarch_flight/guidance/wingbeat_guidance.h"
@@ -20,7 +20,7 @@ enum class GuidanceKind {
 struct GuidanceSettings {
   GuidanceKind kind = GuidanceKind::kMotion;
   WingbeatSettings wingbeat;                   ///< unless kMotion or kReplay
-  std::shared_ptr<const ControllerSettings> controller;  ///< of kController
+  std::optional<ControllerSettings> controller;  ///< of kController
   std::shared_ptr<const NumericTable> replay;  ///< ReplayGuidance::columns(), of kReplay
 };
 
