@@ -8,6 +8,7 @@
 #include <iostream>
 #include <random>
 
+#include "monarch_flight/insect/gusts.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/trim/command.h"
 #include "monarch_flight/trim/controlled_flight.h"
@@ -94,26 +95,7 @@ void starts(const Subject& s, double size, int number) {
       size, held, number, slowest, lost, limited, alone);
 }
 
-/// Rises over a quarter of a flap, smoothly, and falls the same.
-class Gust : public WindModel {
- public:
-  Gust(const Eigen::Vector3d& v, double begin, double length, double edge)
-      : v_(v), begin_(begin), length_(length), edge_(edge) {}
-  Wind at(double t, const Eigen::Vector3d&, const Eigen::Vector3d&,
-          const Eigen::Vector3d&) const override {
-    const double s = std::min(t - begin_, begin_ + length_ - t) / edge_;
-    const double sign = t - begin_ < begin_ + length_ - t ? 1.0 : -1.0;
-    if (s <= 0.0) return {};
-    if (s >= 1.0) return {v_, Eigen::Vector3d::Zero()};
-    return {v_ * (0.5 - 0.5 * std::cos(M_PI * s)),
-            v_ * (sign * 0.5 * M_PI / edge_ * std::sin(M_PI * s))};
-  }
-
- private:
-  Eigen::Vector3d v_;
-  double begin_, length_, edge_;
-};
-
+/// Rises and falls as 1 - cos.
 void gust(const Subject& s, double size, double flaps) {
   constexpr int kBefore = 3;
   const double T = s.c.time.period;
@@ -124,8 +106,8 @@ void gust(const Subject& s, double size, double flaps) {
   for (const auto& [name, direction] : sides) {
     ControlledStart start;
     start.flaps = 50;
-    start.wind = std::make_shared<Gust>(size * direction, s.c.time.t_start + kBefore * T, flaps * T,
-                                        0.25 * T);
+    start.wind =
+        std::make_shared<TimeGust>(s.c.time.t_start + kBefore * T, flaps * T, size * direction);
     const ControlledFlight flight = s.fly(start);
     double speed = 0.0, climb = 0.0, pitch = 0.0;
     bool cut = false;
