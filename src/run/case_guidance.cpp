@@ -62,6 +62,19 @@ std::shared_ptr<const NumericTable> readReplay(Section& section) {
   return std::make_shared<NumericTable>(table);
 }
 
+/// The law, whose gains belong to the filters that it was made with.
+std::optional<ControllerSettings> readLaw(Section& section, double time_constant, const Case& c,
+                                          Faults& faults) {
+  auto law = readController(section.section("controller"), c, faults);
+  if (law && std::abs(law->time_constant - time_constant) > 1e-6 * time_constant) {
+    section.fault("time_constant", " = " + exactText(time_constant) + " flaps: must be " +
+                                       exactText(law->time_constant) +
+                                       ", for which the controller's gains were made; or make "
+                                       "others (scripts/trim control:=true time_constant:=...)");
+  }
+  return law;
+}
+
 }  // namespace
 
 const char* guidanceName(GuidanceKind kind) {
@@ -88,8 +101,9 @@ GuidanceSettings readGuidance(Section section, double frequency, const Case& c, 
   }
   const double period = frequency > 0.0 ? 1.0 / frequency : 1.0;
   settings.wingbeat.frequency = frequency;
-  settings.wingbeat.time_constant =
-      section.number("time_constant", {Bound::kPositive, "flaps", "0.25 is usual"}) * period;
+  const double time_constant =
+      section.number("time_constant", {Bound::kPositive, "flaps", "0.25 is usual"});
+  settings.wingbeat.time_constant = time_constant * period;
   readLimits(section, period, settings.wingbeat);
   if (settings.kind == GuidanceKind::kReplay) {
     try {
@@ -102,7 +116,7 @@ GuidanceSettings readGuidance(Section section, double frequency, const Case& c, 
     section.take("rows");
   }
   if (settings.kind == GuidanceKind::kController) {
-    settings.controller = readController(section.section("controller"), c, faults);
+    settings.controller = readLaw(section, time_constant, c, faults);
   } else {
     section.take("controller");  // of a controlled case that is flown otherwise
   }
