@@ -28,7 +28,7 @@ class Language(flying.FlightTest):
 
     def test_a_picture_of_a_flight(self):
         german = self.german()
-        code, output = self.fly("case:=climb", "fluid:=quasi_steady", "in_process:=true", "flaps:=0.1",
+        code, output = self.fly("case:=climb_printed", "fluid:=quasi_steady", "in_process:=true", "flaps:=0.1",
                                 "out:=" + self.out(), **german)
         self.assertEqual(code, 0, output)
         taken = subprocess.run([os.path.join(flying.ROOT, "scripts", "screenshot"), self.out() + "/flight.bag"],
