@@ -78,8 +78,8 @@ TrimTable::TrimTable(std::vector<double> speeds, std::vector<double> climbs,
     means_.row(i) = states_.block(i * samples_, 0, samples_, 2).colwise().mean();
 }
 
-/// Between points the mean of the interpolated orbit is not quite the velocity asked for: it is moved
-/// there.
+/// Between points the mean of the interpolated orbit is not quite the velocity asked for: it is
+/// moved there.
 void TrimTable::at(const Eigen::Vector2d& velocity, int phase, TrimReference& r) const {
   const double norm = velocity.norm(), angle = std::atan2(-velocity.y(), velocity.x());
   const Place speed = placeOf(norm, speeds_), climb = placeOf(angle, climbs_);
@@ -134,6 +134,7 @@ std::vector<std::string> ControllerSettings::problems() const {
   problems.shape("gains/filter", filter_gain, m * samples, 3 * m);
   problems.shape("gains/integral", integral_gain, m * samples, 2);
   checkSetPoints(set_points, problems);
+  problems.positive("time_constant", time_constant, "it is that of guidance/time_constant");
   problems.positive("slew", slew, "0.1 m/s a flap is usual");
   problems.positive("lost/pitch_deg", lost_pitch, "75 is usual");
   problems.positive("lost/flaps", lost_flaps, "10 is usual");

@@ -116,8 +116,7 @@ bool FlightController::limited(const WingbeatChange& taken) {
 
 /// Adds the last sample's mean, unless it would drive a limited input further.
 void FlightController::integrate(int phase) {
-  const Eigen::Vector2d step =
-      (velocity_sum_ / levels_ - orbit_velocity_) / settings_.samples;
+  const Eigen::Vector2d step = (velocity_sum_ / levels_ - orbit_velocity_) / settings_.samples;
   const Eigen::Index m = asked_.size();
   const auto gain = settings_.integral_gain.middleRows(phase * m, m);
   for (Eigen::Index i = 0; i < m; ++i) {

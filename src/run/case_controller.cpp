@@ -108,6 +108,8 @@ std::optional<ControllerSettings> readController(Section section, const Case& c,
   ControllerSettings s;
   s.samples = section.integer("samples", "10 is usual; the gains belong to it");
   s.inputs = readInputs(section);
+  s.time_constant = section.number(
+      "time_constant", {Bound::kPositive, "flaps", "it is that for which the gains were made"});
   s.wing_pitch = c.free.wing_pitch;
   s.first_step = static_cast<std::uint32_t>(std::max(c.coupling.prescribed_steps, 0));
   const std::size_t m = s.inputs.size();

@@ -7,8 +7,8 @@
 
 namespace monarch_flight {
 
-/// The section `guidance/controller` (docs/guidance.md) of a case whose motion, what is free, time and
-/// coupling have been read. Nothing, with every fault, where it cannot be flown.
+/// The section `guidance/controller` (docs/guidance.md) of a case whose motion, what is free, time
+/// and coupling have been read. Nothing, with every fault, where it cannot be flown.
 std::optional<ControllerSettings> readController(Section section, const Case& c, Faults& faults);
 
 }  // namespace monarch_flight

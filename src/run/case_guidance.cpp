@@ -10,7 +10,15 @@
 namespace monarch_flight {
 namespace {
 
-const std::vector<std::string> kKinds = {"motion", "commands", "controller", "node", "replay"};
+constexpr GuidanceKind kKinds[] = {GuidanceKind::kMotion, GuidanceKind::kCommands,
+                                   GuidanceKind::kController, GuidanceKind::kNode,
+                                   GuidanceKind::kReplay};
+
+std::vector<std::string> kindNames() {
+  std::vector<std::string> names;
+  for (GuidanceKind kind : kKinds) names.push_back(guidanceName(kind));
+  return names;
+}
 
 std::string unitOf(const CommandInfo& info) { return info.unit; }
 
@@ -54,18 +62,48 @@ std::shared_ptr<const NumericTable> readReplay(Section& section) {
   return std::make_shared<NumericTable>(table);
 }
 
+/// The law, whose gains belong to the filters that it was made with.
+std::optional<ControllerSettings> readLaw(Section& section, double time_constant, const Case& c,
+                                          Faults& faults) {
+  auto law = readController(section.section("controller"), c, faults);
+  if (law && std::abs(law->time_constant - time_constant) > 1e-6 * time_constant) {
+    section.fault("time_constant", " = " + exactText(time_constant) + " flaps: must be " +
+                                       exactText(law->time_constant) +
+                                       ", for which the controller's gains were made; or make "
+                                       "others (scripts/trim control:=true time_constant:=...)");
+  }
+  return law;
+}
+
 }  // namespace
+
+const char* guidanceName(GuidanceKind kind) {
+  switch (kind) {
+    case GuidanceKind::kMotion:
+      return "motion";
+    case GuidanceKind::kCommands:
+      return "commands";
+    case GuidanceKind::kController:
+      return "controller";
+    case GuidanceKind::kNode:
+      return "node";
+    case GuidanceKind::kReplay:
+      break;
+  }
+  return "replay";
+}
 
 GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults) {
   GuidanceSettings settings;
-  const std::string kind = section.choice("type", kKinds);
-  for (std::size_t i = 0; i < kKinds.size(); ++i) {
-    if (kKinds[i] == kind) settings.kind = static_cast<GuidanceKind>(i);
+  const std::string kind = section.choice("type", kindNames());
+  for (GuidanceKind one : kKinds) {
+    if (kind == guidanceName(one)) settings.kind = one;
   }
   const double period = frequency > 0.0 ? 1.0 / frequency : 1.0;
   settings.wingbeat.frequency = frequency;
-  settings.wingbeat.time_constant =
-      section.number("time_constant", {Bound::kPositive, "flaps", "0.25 is usual"}) * period;
+  const double time_constant =
+      section.number("time_constant", {Bound::kPositive, "flaps", "0.25 is usual"});
+  settings.wingbeat.time_constant = time_constant * period;
   readLimits(section, period, settings.wingbeat);
   if (settings.kind == GuidanceKind::kReplay) {
     try {
@@ -78,7 +116,7 @@ GuidanceSettings readGuidance(Section section, double frequency, const Case& c, 
     section.take("rows");
   }
   if (settings.kind == GuidanceKind::kController) {
-    settings.controller = readController(section.section("controller"), c, faults);
+    settings.controller = readLaw(section, time_constant, c, faults);
   } else {
     section.take("controller");  // of a controlled case that is flown otherwise
   }

@@ -181,8 +181,7 @@ std::optional<ControlOptions> control(Arguments& arguments) {
   ControlOptions options;
   options.samples = arguments.whole("samples", 1, 1000, options.samples);
   if (arguments.has("inputs")) options.inputs = inputList(arguments);
-  options.time_constant =
-      arguments.number("time_constant", 1e-3, 10.0, options.time_constant);
+  options.time_constant = arguments.number("time_constant", 1e-3, 10.0, options.time_constant);
   if (arguments.has("speed")) options.speed = arguments.number("speed", 1e-3, 100.0, 1.0);
   if (arguments.has("climb"))
     options.climb = kRadians * arguments.number("climb", -89.0, 89.0, 0.0);

@@ -30,8 +30,7 @@ void rows(std::ostream& out, const std::string& key, const Eigen::MatrixXd& m) {
   out << "      " << key << ":\n";
   for (Index i = 0; i < m.rows(); ++i) {
     out << "        - [";
-    for (Index k = 0; k < m.cols(); ++k)
-      out << (k > 0 ? ", " : "") << number(m(i, k), kDigits);
+    for (Index k = 0; k < m.cols(); ++k) out << (k > 0 ? ", " : "") << number(m(i, k), kDigits);
     out << "]\n";
   }
 }
@@ -49,7 +48,8 @@ std::string multiplierText(const std::vector<std::complex<double>>& all) {
 void provenance(std::ostream& out, const Case& c, const ControlDesign& d) {
   const ControlOptions& o = d.options;
   const char* indent = "    # ";
-  out << indent << "status: computed by scripts/trim control:=true (docs/guidance.md) from the case "
+  out << indent
+      << "status: computed by scripts/trim control:=true (docs/guidance.md) from the case "
       << c.name << ", in quasi-steady air\n"
       << indent << "at " << std::lround(c.time.stepsPerFlap()) << " steps a flap, filters of "
       << number(o.time_constant, 4) << " flaps. Weights: state " << number(o.state_weight, 3)
@@ -95,6 +95,8 @@ std::string guidanceSection(const Case& c, const ControlDesign& d) {
   out << "    samples: " << s.samples << "\n    inputs: ";
   for (std::size_t i = 0; i < s.inputs.size(); ++i)
     out << (i > 0 ? ", " : "") << kCommandTable[s.inputs[i]].name;
+  out << "\n    # Of the filters that the gains belong to [flaps].\n    time_constant: "
+      << number(s.time_constant, 8);
   std::vector<double> flaps, speeds, climbs;
   for (const SetPoint& point : s.set_points) {
     flaps.push_back(point.flap);

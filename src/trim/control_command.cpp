@@ -12,16 +12,6 @@ namespace {
 
 constexpr double kDegrees = 180.0 / M_PI;
 
-WingbeatSettings wingbeatOf(const Case& c, const ControlOptions& options) {
-  WingbeatSettings s;
-  s.limits = options.limits;
-  for (CommandLimits& limits : s.limits) limits.rate /= c.time.period;
-  s.time_constant = options.time_constant * c.time.period;
-  s.frequency = 1.0 / c.time.period;
-  s.dt = c.time.dt;
-  return s;
-}
-
 void printDesign(std::ostream& out, const ControlDesign& design) {
   const auto line = [&](const char* what, const std::vector<std::complex<double>>& all) {
     out << "  " << what;
@@ -69,23 +59,24 @@ int runControl(TrimCommand command, const std::string& config_dir, std::ostream&
   own.erase("fluid");
   const Case written = loadCase(command.case_name, own, config_dir);
   const Case c = loadCase(command.case_name, command.overrides, config_dir);
-  options.own_orbit = command.orbit.empty() ? written.fluid == FluidKind::kNavierStokes
-                                            : command.orbit == "own";
+  options.own_orbit =
+      command.orbit.empty() ? written.fluid == FluidKind::kNavierStokes : command.orbit == "own";
   const ControlDesign design = designController(c, options, out);
   printDesign(out, design);
   if (!command.out.empty()) {
     CaseEdit edit(written.resolved_yaml);
     edit.remove({"guidance"});
     edit.set({"name"}, written.name + "_controlled");
-    writeWhole(command.out, "# Made by scripts/trim control:=true (docs/guidance.md) from the case " +
-                                written.name + ".\n" + edit.text() + guidanceSection(c, design));
+    writeWhole(command.out,
+               "# Made by scripts/trim control:=true (docs/guidance.md) from the case " +
+                   written.name + ".\n" + edit.text() + guidanceSection(c, design));
     out << "case: " << command.out << std::endl;
   }
   if (command.fly == 0) return 0;
   ControlledStart start;
   start.flaps = command.fly;
   const ControlledFlight flight =
-      flyControlled(c, wingbeatOf(c, options), design.settings, start);
+      flyControlled(c, wingbeatSettings(c, options), design.settings, start);
   printControlled(out, design, flight);
   return flight.complete && !flight.lost ? 0 : 1;
 }

@@ -57,9 +57,8 @@ class TableSearch {
                                    [&](double x) { return std::abs(x - value) < kSame; });
     if (near == list.end()) list.push_back(value);
     std::sort(list.begin(), list.end());
-    return static_cast<int>(std::find_if(list.begin(), list.end(), [&](double x) {
-                              return std::abs(x - value) < kSame;
-                            }) -
+    return static_cast<int>(std::find_if(list.begin(), list.end(),
+                                         [&](double x) { return std::abs(x - value) < kSame; }) -
                             list.begin());
   }
 
@@ -122,7 +121,7 @@ TrimTable tableOf(const TableSearch& search, const ControlOptions& options, int 
         const auto s = static_cast<std::size_t>(j);
         FlapState x = trim.orbit[s];
         if (moved) x += (*moved)[s] - search.centre().orbit[s];
-        states.row(point * options.samples + j) = x.head(n).transpose();
+        for (Index k = 0; k < n; ++k) states(point * options.samples + j, k) = x(k);
       }
     }
   }
@@ -205,6 +204,7 @@ ControlDesign designController(const Case& c, const ControlOptions& options, std
   ControllerSettings& s = design.settings;
   s.samples = options.samples;
   s.inputs = options.inputs;
+  s.time_constant = options.time_constant;
   s.wing_pitch = c.free.wing_pitch;
   s.table = tableOf(search, options, n, options.own_orbit ? &orbit : nullptr);
   setGains(design, n);

@@ -15,8 +15,8 @@ constexpr double kPart = 0.1;  // of a scale: the differences
 /// State, filters and command as one vector, and the flight over a sample as a function of it.
 class SampleFlight {
  public:
-  SampleFlight(const PhaseMap& map, const ControlOptions& options, int phase, const FlapState& state,
-               const WingbeatStart& wingbeat)
+  SampleFlight(const PhaseMap& map, const ControlOptions& options, int phase,
+               const FlapState& state, const WingbeatStart& wingbeat)
       : map_(map), inputs_(options.inputs), phase_(phase), state_(state), wingbeat_(wingbeat) {
     n_ = controlStates(map.baseCase());
     m_ = static_cast<Index>(inputs_.size());
@@ -26,7 +26,7 @@ class SampleFlight {
 
   VectorXd scales() const {
     VectorXd s(size());
-    s.head(n_) = trimScales().head(n_);
+    s.head(n_) = VectorXd(trimScales()).head(n_);
     const double rate = 1.0 / map_.timeConstant();
     for (Index i = 0; i < m_; ++i) {
       const double scale = commandScale(inputs_[static_cast<std::size_t>(i)]);
@@ -38,8 +38,7 @@ class SampleFlight {
 
   /// States, filters, mean velocity at the end for a change of the start.
   VectorXd end(const VectorXd& change) const {
-    FlapState state = state_;
-    state.head(n_) += change.head(n_);
+    const FlapState state = with(state_, VectorXd(state_).head(n_) + change.head(n_));
     WingbeatStart wingbeat = wingbeat_;
     for (Index i = 0; i < m_; ++i) {
       const std::size_t k = inputs_[static_cast<std::size_t>(i)];
@@ -52,7 +51,7 @@ class SampleFlight {
     const PhaseFlight flight = map_.fly(phase_, state, wingbeat, 1);
     if (!flight.complete) throw NumericalError("a flight over a sample fails: " + flight.failure);
     VectorXd out(n_ + 3 * m_ + 2);
-    out.head(n_) = flight.states.back().head(n_);
+    out.head(n_) = VectorXd(flight.states.back()).head(n_);
     for (Index i = 0; i < m_; ++i) {
       const Coordinate& c = flight.wingbeat.filters[inputs_[static_cast<std::size_t>(i)]];
       out.segment<3>(n_ + 3 * i) << c.q, c.qd, c.qdd;

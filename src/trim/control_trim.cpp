@@ -28,7 +28,7 @@ class CommandedFlap {
 
   VectorXd unknowns() const {
     VectorXd y(n_ + static_cast<Index>(inputs_.size()));
-    y.head(n_) = point_.start.cwiseQuotient(trimScales()).head(n_);
+    y.head(n_) = scaled(point_.start, n_);
     for (std::size_t i = 0; i < inputs_.size(); ++i)
       y(n_ + static_cast<Index>(i)) =
           point_.wingbeat.command.*kCommandTable[inputs_[i]].value / commandScale(inputs_[i]);
@@ -37,7 +37,8 @@ class CommandedFlap {
 
   ControlTrim at(const VectorXd& y) const {
     ControlTrim trim = point_;
-    trim.start.head(n_) = y.head(n_).cwiseProduct(trimScales().head(n_));
+    const VectorXd scales = VectorXd(trimScales()).head(n_);
+    trim.start = with(trim.start, y.head(n_).cwiseProduct(scales));
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
       const double value = y(n_ + static_cast<Index>(i)) * commandScale(inputs_[i]);
       trim.wingbeat.command.*kCommandTable[inputs_[i]].value = value;
@@ -52,8 +53,7 @@ class CommandedFlap {
     const PhaseFlight flight = map_.fly(0, trim.start, trim.wingbeat, map_.samples(), &rates);
     if (!flight.complete) return std::nullopt;
     TrimResidual r;
-    r.periodicity =
-        (flight.states.back() - trim.start).cwiseQuotient(trimScales()).head(n_);
+    r.periodicity = scaled(flight.states.back() - trim.start, n_);
     r.targets = (flight.velocity - wanted_) / kVelocity;
     return r;
   }
@@ -89,25 +89,48 @@ NewtonSettings searchSettings(const ControlOptions& options, bool known) {
 
 double commandScale(std::size_t command) {
   constexpr double kDegree = M_PI / 180.0;
-  constexpr double kScales[kCommands] = {0.1,           10.0 * kDegree, 0.1, 5.0 * kDegree,
-                                         10.0 * kDegree, 15.0 * kDegree, 0.5};
+  constexpr double kScales[kCommands] = {
+      0.1, 10.0 * kDegree, 0.1, 5.0 * kDegree, 10.0 * kDegree, 15.0 * kDegree, 0.5};
   return kScales[command];
+}
+
+VectorXd scaled(const FlapState& state, Index n) {
+  const FlapState all = state.cwiseQuotient(trimScales());
+  VectorXd part(n);
+  for (Index i = 0; i < n; ++i) part(i) = all(i);
+  return part;
+}
+
+FlapState with(FlapState state, const VectorXd& components) {
+  for (Index i = 0; i < components.size(); ++i) state(i) = components(i);
+  return state;
 }
 
 int controlStates(const Case& c) { return c.free.wing_pitch ? 6 : 4; }
 
 std::array<CommandLimits, kCommands> ControlOptions::usualLimits() {
   constexpr double kDegree = M_PI / 180.0;
-  const double sizes[kCommands] = {0.3,           25.0 * kDegree, 0.25, 8.0 * kDegree,
-                                   10.0 * kDegree, 30.0 * kDegree, 0.5};
+  const double sizes[kCommands] = {0.25,           25.0 * kDegree, 0.25, 6.0 * kDegree,
+                                   15.0 * kDegree, 30.0 * kDegree, 1.0};
   std::array<CommandLimits, kCommands> limits;
   for (std::size_t i = 0; i < kCommands; ++i) limits[i] = {-sizes[i], sizes[i], 20.0 * sizes[i]};
+  limits[3].low = -10.0 * kDegree;  // more of it for descent
   return limits;
 }
 
+WingbeatSettings wingbeatSettings(const Case& c, const ControlOptions& options) {
+  WingbeatSettings s;
+  s.limits = options.limits;
+  for (CommandLimits& limits : s.limits) limits.rate /= c.time.period;
+  s.time_constant = options.time_constant * c.time.period;
+  s.frequency = 1.0 / c.time.period;
+  s.dt = c.time.dt;
+  return s;
+}
+
 SetPoint ownSetPoint(const Case& c) {
-  const Eigen::Vector3d way = c.motion->at(c.time.t_start + c.time.period).body.x -
-                              c.motion->at(c.time.t_start).body.x;
+  const Eigen::Vector3d way =
+      c.motion->at(c.time.t_start + c.time.period).body.x - c.motion->at(c.time.t_start).body.x;
   const Eigen::Vector3d v = way / c.time.period;
   return {0.0, std::hypot(v.x(), v.z()), std::atan2(-v.z(), v.x())};
 }

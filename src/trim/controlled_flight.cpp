@@ -90,7 +90,7 @@ ControlledFlight flyControlled(const Case& given, const WingbeatSettings& wingbe
       std::lround(controller.samples * (c.time.t_start / c.time.period)) % controller.samples);
   controller.table.at(controller.set_points.front().velocity(), phase, reference);
   FlapState s = start.change;
-  s.head(controller.states()) += reference.state;
+  for (Eigen::Index i = 0; i < reference.state.size(); ++i) s(i) += reference.state(i);
   StartValues values;
   values.x = StartValue{0.0, s(0), 0.0};
   values.z = StartValue{0.0, s(1), 0.0};
@@ -110,8 +110,9 @@ ControlledFlight flyControlled(const Case& given, const WingbeatSettings& wingbe
   ControlledFlight flight;
   FlapSink sink(flight);
   const RunResult result =
-      flyLed(c, std::make_unique<WingbeatGuidance>(c.motion, start.wind, wingbeat, c.time.t_start,
-                                                   std::move(source)),
+      flyLed(c,
+             std::make_unique<WingbeatGuidance>(c.motion, start.wind, wingbeat, c.time.t_start,
+                                                std::move(source)),
              {&sink});
   flight.complete = result.complete;
   flight.failure = result.failure;

@@ -12,7 +12,7 @@ namespace monarch_flight {
 namespace {
 
 constexpr std::size_t kFrequency = 2;  // in kCommandTable
-constexpr double kUnlimited = 1e6;  // of a command, and of its rate
+constexpr double kUnlimited = 1e6;     // of a command, and of its rate
 
 /// Sets filters and commands by their names, and leaves the rest.
 class Preset : public StateVisitor {
@@ -127,6 +127,7 @@ PhaseMap::PhaseMap(const Case& c, int samples, double time_constant)
         "fluid/solver: must be quasi_steady, an air without memory, for a flight to begin at any "
         "phase; give fluid:=quasi_steady");
   if (!faults.empty()) throw InputError(faults);
+  case_.guidance = {};
   case_.wind = std::make_shared<SteadyWind>();
   case_.output.surface_every = case_.output.vortices_every = case_.output.fields_every = 0;
   case_.coupling.prescribed_steps = 0;
@@ -159,8 +160,8 @@ PhaseFlight PhaseMap::fly(int phase, const FlapState& s, const WingbeatStart& wi
   Eigen::Vector2d place;
   for (int k = 0; k <= intervals; ++k) {
     FlapState state, rate;
-    elapsed = levels.at(levels.phases.front() + static_cast<double>(k) / samples_, state, rate,
-                        place);
+    elapsed =
+        levels.at(levels.phases.front() + static_cast<double>(k) / samples_, state, rate, place);
     flight.states.push_back(state);
     flight.rates.push_back(rate);
   }

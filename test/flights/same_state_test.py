@@ -32,7 +32,7 @@ class SameState(flying.FlightTest):
     """One flight for all: the second is compared with the first."""
 
     def climb(self, name, *keys):
-        code, output = self.fly("case:=climb", "fluid:=quasi_steady", "flaps:=1",
+        code, output = self.fly("case:=climb_printed", "fluid:=quasi_steady", "flaps:=1",
                                 "steps_per_flap:=%d" % STEPS, "out:=" + self.out(name), *keys)
         self.assertEqual(code, 0, output)
         return output

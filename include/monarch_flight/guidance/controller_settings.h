@@ -24,8 +24,8 @@ struct TrimReference {
   Eigen::Vector2d velocity;  ///< mean from this sample to the next, x and z of NED [m/s]
 };
 
-/// Periodic flights over speed and climb angle, each by its commands and its states at every sample.
-/// Between the points bilinear, beyond the edges the edge.
+/// Periodic flights over speed and climb angle, each by its commands and its states at every
+/// sample. Between the points bilinear, beyond the edges the edge.
 class TrimTable {
  public:
   TrimTable() = default;
@@ -51,9 +51,9 @@ class TrimTable {
 
 /// From this flap on the flight shall have this mean velocity over ground.
 struct SetPoint {
-  double flap = 0.0;   ///< on the phase clock
-  double speed = 0.0;  ///< [m/s]
-  double climb = 0.0;  ///< up from the horizontal [rad]
+  double flap = 0.0;                 ///< on the phase clock
+  double speed = 0.0;                ///< [m/s]
+  double climb = 0.0;                ///< up from the horizontal [rad]
   Eigen::Vector2d velocity() const;  ///< x and z of NED [m/s]
 };
 
@@ -61,15 +61,16 @@ struct SetPoint {
 struct ControllerSettings {
   int samples = 0;                  ///< N of the law a flap
   std::vector<std::size_t> inputs;  ///< commands used, indices of kCommandTable
+  double time_constant = 0.0;       ///< of the commands' filters that the gains belong to [flaps]
   bool wing_pitch = true;           ///< theta_R and its rate are fed back
   TrimTable table;
-  /// Rows input + inputs.size() * phase: command for a deviation of the states, of the filters (value,
-  /// rate, acceleration of each input in turn) and of the integrals (x, z: [m/s flaps]).
+  /// Rows input + inputs.size() * phase: command for a deviation of the states, of the filters
+  /// (value, rate, acceleration of each input in turn) and of the integrals (x, z: [m/s flaps]).
   Eigen::MatrixXd state_gain, filter_gain, integral_gain;
   std::vector<SetPoint> set_points;  ///< by flap; the first one holds from the start
   double slew = 0.0;                 ///< of the set point [m/s a flap]
-  /// Lost: body pitch is further off its reference than this [rad], or an input has been limited for
-  /// so many flaps on end.
+  /// Lost: body pitch is further off its reference than this [rad], or an input has been limited
+  /// for so many flaps on end.
   double lost_pitch = 0.0, lost_flaps = 0.0;
   std::uint32_t first_step = 0;  ///< until this level the flight is prescribed: trimmed commands
 

@@ -40,20 +40,20 @@ class FlightController : public CommandSource {
   WingbeatChange change() const;
 
   ControllerSettings settings_;
-  bool begun_;    // there has been a sample
-  double index_;  // of the last one, samples since t = 0
-  Eigen::Vector2d last_velocity_;       // through the air, level before
+  bool begun_;                               // there has been a sample
+  double index_;                             // of the last one, samples since t = 0
+  Eigen::Vector2d last_velocity_;            // through the air, level before
   Eigen::Vector2d velocity_sum_, wind_sum_;  // over the levels since the last sample
-  double levels_;                       // of them
-  Eigen::Vector2d wind_mean_;           // over about a flap
-  Eigen::Vector2d reference_velocity_;  // r
-  Eigen::Vector2d orbit_velocity_;      // that the periodic flight has from the last sample on
+  double levels_;                            // of them
+  Eigen::Vector2d wind_mean_;                // over about a flap
+  Eigen::Vector2d reference_velocity_;       // r
+  Eigen::Vector2d orbit_velocity_;           // that the periodic flight has from the last sample on
   Eigen::Vector2d integral_;
   ControlInput asked_;    // at the last sample
   ControlInput excess_;   // of it over what was taken
   double limited_flaps_;  // on end
   bool lost_;
-  TrimReference now_;      // of the sample; a function of the above
+  TrimReference now_;  // of the sample; a function of the above
   ControlState deviation_;
 };
 

@@ -11,14 +11,14 @@ namespace monarch_flight {
 
 /// What `scripts/trim` was asked for.
 struct TrimCommand {
-  std::string case_name = "climb";
+  std::string case_name = "climb_printed";
   CaseOverrides overrides;  ///< fluid, grid, steps_per_flap
   TrimOptions options;
-  std::string out;           ///< case file to write; empty: none
-  std::string jacobian_file; ///< of another trim; empty: by differences
-  int fly = 0;               ///< free flaps flown and shown at the end
-  std::optional<ControlOptions> control; ///< design a controller instead
-  std::string orbit;         ///< reference of the controller: trim, own, or "" for what suits the air
+  std::string out;                        ///< case file to write; empty: none
+  std::string jacobian_file;              ///< of another trim; empty: by differences
+  int fly = 0;                            ///< free flaps flown and shown at the end
+  std::optional<ControlOptions> control;  ///< design a controller instead
+  std::string orbit;  ///< reference of the controller: trim, own, or "" for what suits the air
 };
 
 /// From key:=value arguments. Throws InputError with every fault.

@@ -13,14 +13,15 @@ namespace monarch_flight {
 
 /// What is asked of a controller's design (docs/guidance.md).
 struct ControlOptions {
-  int samples = 10;                      ///< of the law a flap
-  std::vector<std::size_t> inputs{0, 3}; ///< of kCommandTable: amplitude, deviation_mean
-  double time_constant = 0.06;           ///< of the commands' filters [flaps]
+  int samples = 10;                       ///< of the law a flap
+  std::vector<std::size_t> inputs{0, 3};  ///< of kCommandTable: amplitude, deviation_mean
+  double time_constant = 0.06;            ///< of the commands' filters [flaps]
   std::array<CommandLimits, kCommands> limits = usualLimits();  ///< rates a flap
-  std::optional<double> speed, climb;    ///< set point [m/s], [rad]; default: the case's own motion
-  std::vector<double> speeds, climbs;    ///< of the table [m/s], [rad]; empty: around the set point
-  /// The reference at the set point is the case's own motion without commands instead of the periodic
-  /// flight in quasi-steady air, and the table is moved with it: for flight in another air.
+  std::optional<double> speed, climb;  ///< set point [m/s], [rad]; default: the case's own motion
+  std::vector<double> speeds, climbs;  ///< of the table [m/s], [rad]; empty: around the set point
+  /// The reference at the set point is the case's own motion without commands instead of the
+  /// periodic flight in quasi-steady air, and the table is moved with it: for flight in another
+  /// air.
   bool own_orbit = false;
   double state_weight = 0.3, integral_weight = 0.02, input_weight = 3.0;
   static std::array<CommandLimits, kCommands> usualLimits();
@@ -30,10 +31,10 @@ struct ControlOptions {
 struct ControlTrim {
   double speed = 0.0, climb = 0.0;  ///< [m/s], [rad]
   FlapState start = FlapState::Zero();
-  WingbeatStart wingbeat;          ///< filters at rest at the commands
-  std::vector<FlapState> orbit;    ///< at every sample
-  double residual = 0.0;           ///< largest change over a flap, scaled
-  Eigen::MatrixXd jacobian;        ///< of the search
+  WingbeatStart wingbeat;        ///< filters at rest at the commands
+  std::vector<FlapState> orbit;  ///< at every sample
+  double residual = 0.0;         ///< largest change over a flap, scaled
+  Eigen::MatrixXd jacobian;      ///< of the search
 };
 
 struct ControlDesign {
@@ -44,6 +45,9 @@ struct ControlDesign {
   double residual = 0.0;                                     ///< largest of the table's points
   int riccati_periods = 0;
 };
+
+/// The wingbeat that these options mean for a case.
+WingbeatSettings wingbeatSettings(const Case& c, const ControlOptions& options);
 
 /// The mean velocity of the case's own motion over a flap, as a set point.
 SetPoint ownSetPoint(const Case& c);

@@ -12,7 +12,8 @@ namespace monarch_flight {
 
 /// What a controlled flight begins with and flies through.
 struct ControlledStart {
-  FlapState change = FlapState::Zero();  ///< of the state that the controller refers to at the start
+  FlapState change =
+      FlapState::Zero();  ///< of the state that the controller refers to at the start
   std::shared_ptr<const WindModel> wind = std::make_shared<SteadyWind>();
   int flaps = 0;
   bool uncontrolled = false;  ///< commands stay those of the reference
@@ -20,10 +21,10 @@ struct ControlledStart {
 
 /// One flap of it.
 struct ControlledFlap {
-  double speed = 0.0, climb = 0.0;                    ///< of the mean velocity over ground [m/s], [rad]
+  double speed = 0.0, climb = 0.0;  ///< of the mean velocity over ground [m/s], [rad]
   double theta_B_mean = 0.0, theta_B_low = 0.0, theta_B_high = 0.0;  ///< [rad]
-  WingbeatChange command_low, command_high;           ///< taken
-  bool limited = false;                               ///< a command was cut in it
+  WingbeatChange command_low, command_high;                          ///< taken
+  bool limited = false;                                              ///< a command was cut in it
 };
 
 struct ControlledFlight {

@@ -21,9 +21,9 @@ struct WingbeatStart {
 struct PhaseFlight {
   bool complete = false;
   std::string failure;
-  std::vector<FlapState> states;  ///< at every sample, the start first
-  std::vector<FlapState> rates;   ///< their time derivatives
-  WingbeatStart wingbeat;         ///< at the end
+  std::vector<FlapState> states;                       ///< at every sample, the start first
+  std::vector<FlapState> rates;                        ///< their time derivatives
+  WingbeatStart wingbeat;                              ///< at the end
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< mean, x and z of NED [m/s]
 };
 
@@ -38,7 +38,8 @@ class PhaseMap {
   int samples() const { return samples_; }
   double timeConstant() const { return time_constant_; }
   /// From sample `phase` over `intervals` samples, in still air; `rates` of the state at the start
-  /// (none: the first step at constant acceleration). What is prescribed is the case's. Thread-safe.
+  /// (none: the first step at constant acceleration). What is prescribed is the case's.
+  /// Thread-safe.
   PhaseFlight fly(int phase, const FlapState& state, const WingbeatStart& wingbeat, int intervals,
                   const FlapState* rates = nullptr) const;
   /// Time derivative of the state at a sample.
