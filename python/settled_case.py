@@ -100,14 +100,14 @@ def comments_of(means, prescribed, origin, controlled):
     comments = {f"motion/{key}": f"status: as flown, with the mean commands folded in ({origin})" for key in keys}
     if means["rest_angle"] != 0.0:
         comments["insect/wing/theta_0"] = f"status: as flown, with the mean command folded in ({origin})"
-    comments |= {key: f"status: flown, the last flap ({origin});\n{settled_motion.HARMONICS} harmonics, value and rate at its start "
+    comments |= {key: f"status: flown, mean of the {origin};\n{settled_motion.HARMONICS} harmonics, value and rate at its start "
                  "exact" for key in prescribed}
     comments["coupling/prescribed_steps"] = "The first flap is prescribed: the flight that the release goes on with."
     comments["guidance/limits"] = "The bounds that the wings' motion had, told as changes of this one."
     if controlled:
         comments["guidance/controller/set_points"] = "Mean velocity over ground: the one that was held."
         comments["guidance/controller/table"] = (
-            "Moved alike at all points: at the set point no command, and the states of the flown flap.\n"
+            "Moved alike at all points: at the set point no command, and the states that were flown.\n"
             "Rows: speed by speed, in each the climbs; of states the samples of a flap.")
         comments["guidance/controller/gains"] = "Rows: sample by sample, in each the inputs; in units of this motion's commands."
     return comments
@@ -115,7 +115,7 @@ def comments_of(means, prescribed, origin, controlled):
 
 def settled(flight, verdict, name):
     """Content, comments by key, heading of the case in which the settled flight needs no commands in the mean."""
-    case, means, rows = copy.deepcopy(flight.case), verdict.means, settled_motion.flown(flight, verdict.flaps[-1])
+    case, means, rows = copy.deepcopy(flight.case), verdict.means, settled_motion.flown(flight, verdict.flaps)
     origin = f"{verdict.span} of {flight.folder.name}/flight.csv"
     settled_motion.fold(case, means)
     prescribed = settled_motion.prescribe(case, rows)

@@ -27,9 +27,11 @@ def check(flight):
         raise Unfit(*(f"{flight.folder}: {fault}" for fault in faults))
 
 
-def flown(flight, flap):
-    """Columns of flight.csv from the flap's start to its end, both there; x and z from its start."""
-    rows = {name: flight.columns[name][flap.first:flap.last + 1] for name in (*STATES, "x", "z", "wx", "wz")}
+def flown(flight, flaps):
+    """Columns of flight.csv over a flap, both ends there, in the mean of these flaps; x and z from its start."""
+    def mean(name):
+        return np.mean([flight.columns[name][flap.first:flap.last + 1] for flap in flaps], axis=0)
+    rows = {name: mean(name) for name in (*STATES, "x", "z", "wx", "wz")}
     return rows | {name: rows[name] - rows[name][0] for name in ("x", "z")}
 
 

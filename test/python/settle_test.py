@@ -145,6 +145,12 @@ class Folding(Folder):
             np.testing.assert_allclose(found["AN"][2:] + found["BN"][2:], 0, atol=1e-9)
         self.assertAlmostEqual(motion["theta_B_deg"]["A0"], math.degrees(0.3), places=9)
 
+    def test_flaps_that_differ_are_averaged(self):
+        columns = made.columns()
+        columns["theta_R"] += 0.001 * columns["phase"]
+        mean = self.settled(columns)["motion"]["theta_R_deg"]["A0"]  # of flaps that begin at 3, 4, 5
+        self.assertAlmostEqual(mean, math.degrees(0.05 + 0.004), places=9)
+
     def test_release_is_exact_beyond_the_harmonics(self):
         columns = made.columns()
         shape = 0.01 * np.cos(2 * np.pi * 9 * columns["phase"]) + 0.02 * np.sin(2 * np.pi * 9 * columns["phase"])
@@ -218,7 +224,7 @@ class Files(Folder):
         code, text = self.command(self.folder / "run", f"out:={out}")
         self.assertEqual(code, 0, text)
         written = out.read_text(encoding="utf-8")
-        for words in ("# Made by scripts/settle", "amplitude +4 %", "# status: flown, the last flap (flaps 4 to 6 of run/flight.csv)",
+        for words in ("# Made by scripts/settle", "amplitude +4 %", "# status: flown, mean of the flaps 4 to 6 of run/flight.csv",
                       "name: periodic\n"):
             self.assertIn(words, written)
         expected = settled_case.settled(flight, settle.judge(flight, settle.Bounds()), "periodic")[0]
