@@ -85,7 +85,7 @@ void triad(benchmark::State& state) {
 }
 
 void dgemm(benchmark::State& state) {
-  useOneBlasThread();
+  const BlasUse blas;
   const int n = 768;
   Array a(n * n, 1.0), b(n * n, 2.0), c(n * n, 0.0);
   for (auto _ : state) {

@@ -23,15 +23,28 @@ foreach(ranks 1 2 3 4)
     ENVIRONMENT "OPENBLAS_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_mpi_yield_when_idle=1")
 endforeach()
 
-# One of two processes has no memory.
-add_executable(fluid_lost_memory_test test/mpi/lost_memory_test.cpp)
-target_link_libraries(fluid_lost_memory_test PRIVATE monarch_fluid)
-target_include_directories(fluid_lost_memory_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
-add_test(NAME fluid_lost_memory
-  COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe ${MPIEXEC_NUMPROC_FLAG} 2 $<TARGET_FILE:fluid_lost_memory_test>)
-set_tests_properties(fluid_lost_memory PROPERTIES TIMEOUT 60
-  PASS_REGULAR_EXPRESSION "process 1 of the flow failed alone" FAIL_REGULAR_EXPRESSION "nevertheless"
-  ENVIRONMENT "OPENBLAS_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_mpi_yield_when_idle=1")
+# One of several processes is lost to the flow: the end of them all says which, and why.
+function(lost_process_test name ranks program way words)
+  add_test(NAME ${name} COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe ${MPIEXEC_NUMPROC_FLAG} ${ranks}
+    $<TARGET_FILE:${program}> ${way})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 60 PASS_REGULAR_EXPRESSION "${words}" FAIL_REGULAR_EXPRESSION "nevertheless"
+    ENVIRONMENT "OPENBLAS_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_mpi_yield_when_idle=1")
+endfunction()
+
+foreach(program lost_memory hung_process)
+  add_executable(fluid_${program}_test test/mpi/${program}_test.cpp)
+  target_link_libraries(fluid_${program}_test PRIVATE monarch_fluid)
+  target_include_directories(fluid_${program}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+endforeach()
+set(alone "process 1 of the flow failed alone")
+lost_process_test(fluid_lost_memory 2 fluid_lost_memory_test flow "${alone}: std::bad_alloc")
+lost_process_test(fluid_lost_memory_blas 2 fluid_lost_memory_test blas "${alone}: no memory for BLAS: its 1 work buffer")
+set(vain "waited in vain for process")
+lost_process_test(fluid_hung_stopped 2 fluid_hung_process_test stopped "${vain} 1, which hangs: it gives no sign of life")
+lost_process_test(fluid_hung_computing 3 fluid_hung_process_test computing "${vain} 2, which hangs: it runs, but did not come")
+lost_process_test(fluid_hung_in_a_wait 3 fluid_hung_process_test in_a_wait "${vain} 2, which hangs")
+lost_process_test(fluid_hung_caller 2 fluid_hung_process_test caller_stopped "${vain} 0, which hangs: it gives no sign of life")
+lost_process_test(fluid_hung_before 2 fluid_hung_process_test before "not all began")
 
 # The files of the flow, where they can be written.
 if(VTK_FOUND)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A fluid node of one's own: each wing a rectangle with nothing but drag normal to its plane.
 
-  roslaunch monarch_flight flight.launch case:=climb fluid_node:=drag_fluid.py flaps:=0.1
+  roslaunch monarch_flight flight.launch case:=climb_printed fluid_node:=drag_fluid.py flaps:=0.1
 
 Force on a strip of the wing: -1/2 rho C_n c dy |u| u along the wing's normal, u being its speed
 normal to the wing at half chord; C_n = 1.98 is the measured normal-force coefficient of a plate
@@ -29,30 +29,18 @@ def rotation(axis, angle):
     return R
 
 
-def series(terms, frequency, t):
-    """(angle, rate) [rad, rad/s] of a Fourier series in degrees."""
-    angle, rate = terms["A0"], 0.0
-    for n, (a, b) in enumerate(zip(terms["AN"], terms["BN"])):
-        w = 2 * np.pi * frequency * terms["multiple"] * (n + 1)
-        angle += a * np.cos(w * t) + b * np.sin(w * t)
-        rate += w * (b * np.cos(w * t) - a * np.sin(w * t))
-    return np.radians(angle), np.radians(rate)
-
-
 class DragFluid:
     """The state of this fluid is nothing: the loads follow from the wing's motion of the moment."""
 
     def start(self, case, request):
-        wing, motion = case["insect"]["wing"], case["motion"]
-        if not isinstance(wing["planform"].get("scale_span"), float) or motion["type"] != "fourier":
-            raise ValueError("this fluid needs a planform with scale_span and a motion in Fourier "
-                             "series, as the case climb has them")
+        wing = case["insect"]["wing"]
+        if not isinstance(wing["planform"].get("scale_span"), float):
+            raise ValueError("this fluid needs a planform with scale_span, as the case climb has it")
         span, area = wing["planform"]["scale_span"], wing["planform"]["scale_area"]
         self.y = (np.arange(STRIPS) + 0.5) * span / STRIPS
         self.factor = 0.5 * case["fluid"]["density"] * NORMAL_FORCE * area / STRIPS
         self.x = -0.5 * area / span  # half chord; the hinge is at the leading edge
-        self.wind = np.array(case["fluid"]["wind"])
-        self.beta, self.root, self.motion = case["insect"]["beta"], np.array(wing["root"]), motion
+        self.beta, self.root = case["insect"]["beta"], np.array(wing["root"])
         return ParticipantReply(interface=request.interface)
 
     def iterate(self, request):
@@ -69,17 +57,18 @@ class DragFluid:
 
     def wing_velocity(self, request):
         """(velocity of the root against the air, angular velocity), wing axes [m/s, rad/s]."""
-        state, f = request.interface, self.motion["frequency"]
-        phi, phi_dot = series(self.motion["phi_deg"], f, request.t)
-        psi, psi_dot = series(self.motion["psi_deg"], f, request.t)
+        state, prescribed = request.interface, request.prescribed
+        phi, phi_dot = prescribed.phi.position, prescribed.phi.velocity
+        psi, psi_dot = prescribed.psi.position, prescribed.psi.velocity
         theta, theta_dot = state.theta_r[0], state.theta_r[1]
+        wind = np.array([prescribed.wind.x, prescribed.wind.y, prescribed.wind.z])
         Q_BW = rotation(1, self.beta) @ rotation(0, phi) @ rotation(2, -psi) @ rotation(1, theta)
         R_IB = np.reshape(state.attitude, (3, 3))
         Omega_B = np.array(state.angular_velocity)
         rate = np.array([phi_dot * np.cos(psi) * np.cos(theta) + psi_dot * np.sin(theta),
                          phi_dot * np.sin(psi) + theta_dot,
                          phi_dot * np.cos(psi) * np.sin(theta) - psi_dot * np.cos(theta)])
-        v_B = R_IB.T @ (np.array(state.velocity) - self.wind) + np.cross(Omega_B, self.root)
+        v_B = R_IB.T @ (np.array(state.velocity) - wind) + np.cross(Omega_B, self.root)
         return np.concatenate([Q_BW.T @ v_B, rate + Q_BW.T @ Omega_B])
 
     def loads(self, u):

@@ -1,5 +1,5 @@
 """The solver's end of the lockstep protocol (docs/protocol.md) in Python: a node of one's own in
-place of the fluid, flight or wing node.
+place of the fluid, flight or wing node, or one that leads the wingbeat.
 
 A solver is an object with
   start(case, request)         the resolved case (a dict) and the START request; returns a reply
@@ -7,6 +7,16 @@ A solver is an object with
   commit(request)              keeps what was answered to the last iterate; returns a reply
 A reply is a ParticipantReply whose key, protocol, wall_s and seal are filled in here. An exception
 becomes the reply's error, and the coordinator tells the person.
+
+Guidance is asked once a step, with the committed level n in the request and the time of n+1 in
+request.t. It is an object with
+  start(case, request)         may return the PrescribedLevel of level 0; None: the case's own
+and one of
+  command(request)             returns a WingbeatCommand, a dict of its fields, or None: as before
+  prescribe(request)           returns the PrescribedLevel of level n+1
+
+Both may have save() -> bytes and restore(bytes): what one step leaves to the next, for checkpoints.
+Guidance may have commit(request), and `lost`, true once it has given up.
 """
 import hashlib
 import hmac
@@ -21,7 +31,8 @@ if "ROS_IP" not in os.environ:
 
 import rospy  # noqa: E402  (reads the address when it is imported)
 import yaml
-from monarch_flight.msg import CouplingKey, Hello, ParticipantReply, ParticipantRequest
+from monarch_flight.msg import (CouplingKey, Hello, ParticipantReply, ParticipantRequest,
+                                WingbeatCommand)
 from std_msgs.msg import String
 
 NAMESPACE = "/monarch_flight"
@@ -45,11 +56,52 @@ def order(key):
     return key.reset, key.step, key.phase, key.iteration
 
 
+class GuidanceSolver:
+    """Guidance as a solver. A checkpoint of the committed level may come when the next one is
+    prescribed already, so the memory of the committed level is kept."""
+
+    def __init__(self, guidance):
+        self.guidance = guidance
+        self.memory = bytes()
+
+    def start(self, case, request):
+        level = self.guidance.start(case, request)
+        return self.committed(request, prescribed=[] if level is None else [level])
+
+    def iterate(self, request):
+        reply = ParticipantReply(interface=request.interface)
+        if hasattr(self.guidance, "prescribe"):
+            reply.prescribed = [self.guidance.prescribe(request)]
+        else:
+            command = self.guidance.command(request)
+            if isinstance(command, dict):
+                command = WingbeatCommand(**command)
+            reply.command = [] if command is None else [command]
+        reply.lost = bool(getattr(self.guidance, "lost", False))
+        return reply
+
+    def commit(self, request):
+        getattr(self.guidance, "commit", lambda request: None)(request)
+        return self.committed(request)
+
+    def committed(self, request, **answer):
+        self.memory = getattr(self.guidance, "save", bytes)()
+        return ParticipantReply(interface=request.interface, **answer)
+
+    def save(self):
+        return self.memory
+
+    def restore(self, memory):
+        getattr(self.guidance, "restore", lambda memory: None)(memory)
+        self.memory = memory
+
+
 class SolverNode:
     """Serves one run, then ends."""
 
     def __init__(self, role, solver):
-        self.role, self.solver = role, solver
+        self.role = role
+        self.solver = GuidanceSolver(solver) if role == "guidance" else solver
         self.place = "%s/%s/" % (NAMESPACE, role)
         self.lock = threading.Lock()  # each connection has a thread of its own
         self.greeting = self.cache = self.kept = self.case = None
@@ -166,14 +218,15 @@ class SolverNode:
             raise RuntimeError("no case on %s/case within 30 s" % NAMESPACE)
         if hashlib.sha256(self.case.encode()).hexdigest() != self.greeting.case_sha256:
             raise RuntimeError("the text on %s/case is not the case of the run" % NAMESPACE)
-        return yaml.safe_load(self.case)
+        return yaml.load(self.case, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
     def serve(self):
         """Returns an exit code when the run is over: 1 when the coordinator was lost, 130 when
         stopped by hand."""
         try:
             return self.wait_for_the_end()
-        except KeyboardInterrupt:
+        except KeyboardInterrupt:  # the coordinator, interrupted too, makes its last checkpoint
+            self.let_coordinator_leave(10)
             return 130
 
     def wait_for_the_end(self, limit=600.0):
@@ -183,7 +236,11 @@ class SolverNode:
                     self.cache is not None or time.monotonic() - begin > limit):
                 rospy.logerr("the coordinator is lost")
                 return 1
-        begin = time.monotonic()  # the coordinator closes its files first
-        while self.replies.get_num_connections() and time.monotonic() - begin < 60:
-            time.sleep(0.05)
+        self.let_coordinator_leave(60)
         return 0
+
+    def let_coordinator_leave(self, limit):
+        """It closes its files first."""
+        begin = time.monotonic()
+        while self.replies.get_num_connections() and time.monotonic() - begin < limit:
+            time.sleep(0.05)

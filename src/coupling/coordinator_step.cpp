@@ -171,12 +171,15 @@ void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
   // 5. commit: what the fluid was last evaluated for, on all sides
   Request request = last.request;
   request.key.phase = Phase::kCommit;
-  const bool surface = due(out.step, model_.surface_every);
-  const bool vortices = due(out.step, model_.vortices_every);
+  const PictureSettings& pictures = settings_.pictures;
+  const bool surface = due(out.step, pictures.surface_every);
+  const bool vortices = due(out.step, pictures.vortices_every);
+  request.q_threshold = pictures.q_threshold;
+  request.vortex_limit = pictures.vortex_limit;
   for (Role role : {Role::kFluid, Role::kFlight, Role::kWing, Role::kGuidance}) {
     if (role == Role::kGuidance) request.key.iteration = 0;  // it was asked once
     request.want_fields = role == Role::kFluid && (surface || vortices);
-    request.want_flow = role == Role::kFluid && due(out.step, model_.fields_every);
+    request.want_flow = role == Role::kFluid && due(out.step, pictures.flow_every);
     Reply reply = ask(role, request, out);
     if (role != Role::kFluid) continue;
     out.fluid = reply.report;

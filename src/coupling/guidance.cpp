@@ -9,12 +9,20 @@ Wind windAhead(const WindModel& wind, const GuidanceInput& input) {
 }
 
 PrescribedState MotionGuidance::start(double t) {
+  t_ = t;
   PrescribedState state = motion_->at(t);
   state.wind = wind_->at(t, state.body.x, state.body.v, state.body.a);
   return state;
 }
 
+GuidanceReport MotionGuidance::report() const {
+  GuidanceReport report;
+  report.phase = frequency_ * t_;
+  return report;
+}
+
 PrescribedState MotionGuidance::next(const GuidanceInput& input) {
+  t_ = input.t;
   PrescribedState state = motion_->at(input.t);
   state.wind = windAhead(*wind_, input);
   return state;

@@ -79,6 +79,7 @@ bool same(const Request& a, const Request& b) {
          prescribedValues(a.prescribed) == prescribedValues(b.prescribed) &&
          same(a.interface, b.interface) && same(a.loads, b.loads) &&
          a.want_operator == b.want_operator && a.want_fields == b.want_fields &&
+         a.q_threshold == b.q_threshold && a.vortex_limit == b.vortex_limit &&
          a.want_flow == b.want_flow;
 }
 

@@ -41,7 +41,7 @@ void FluidParticipant::onCommit(const Request& request, Reply& reply) {
   if (request.want_flow) reply.flow = fluid_->flowField();
   if (!request.want_fields) return;
   reply.surface = fluid_->surfacePressure();
-  reply.vortices = fluid_->vortices(model().q_threshold, model().vortex_limit);
+  reply.vortices = fluid_->vortices(request.q_threshold, request.vortex_limit);
 }
 
 void FluidParticipant::memory(StateVisitor& state) {

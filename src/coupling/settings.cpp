@@ -54,6 +54,10 @@ std::vector<std::string> CouplingSettings::problems() const {
   if (!positive(length_scale)) {
     faults.push_back(fault("length_scale", length_scale, "above 0 m", "use the wing's mean chord"));
   }
+  if (pictures.surface_every < 0 || pictures.vortices_every < 0 || pictures.flow_every < 0 ||
+      pictures.vortex_limit < 0) {
+    faults.push_back("pictures: steps between them and points must be at least 0 (0: never)");
+  }
   return faults;
 }
 

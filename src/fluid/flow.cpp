@@ -136,6 +136,7 @@ void NavierStokes::prepareStep() {
 
 /// One evaluation: (1) momentum with the wall's new velocity, (2) pressure, (3) loads.
 Loads NavierStokes::evaluate(const WingMotion& next) {
+  evaluated_ = false;  // until it is done: what throws leaves nothing to commit
   if (step_.dt == 0) prepareStep();
   LapTimer timer(report_.kernel_s);
   next_.frame = next.R_IW;

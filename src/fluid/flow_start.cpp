@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "fluid/blas.h"
 #include "fluid/flow.h"
 #include "fluid/projection.h"
 #include "fluid/shared_flow.h"
@@ -108,11 +109,13 @@ void NavierStokes::setKnownFlow(KnownFlow flow) {
 }
 
 std::unique_ptr<FluidModel> makeNavierStokes(const Planform& planform, const Air& air,
-                                             const GridSettings& settings) {
+                                             const GridSettings& settings, double watchdog_s) {
+  takeBlasBuffers();  // before the grid is there
   Grid grid = makeGrid(planform, settings);
   const double chord = planform.meanChord();
   if (flowProcesses() > 1) {
-    return std::make_unique<SharedFlow>(grid, air, chord, settings.courant_limit, MPI_COMM_WORLD);
+    return std::make_unique<SharedFlow>(grid, air, chord, settings.courant_limit, MPI_COMM_WORLD,
+                                        watchdog_s);
   }
   return std::make_unique<NavierStokes>(std::move(grid), air, chord, settings.courant_limit);
 }

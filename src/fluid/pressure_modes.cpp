@@ -3,6 +3,7 @@
 #include <lapacke.h>
 
 #include <cmath>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -37,6 +38,7 @@ ModeClass tridiagonalModes(const Eigen::VectorXd& width, double conductance_low,
   }
   const int info = LAPACKE_dstevd(LAPACK_COL_MAJOR, 'V', m, modes.values.data(), off.data(),
                                   modes.vectors.data(), m);
+  if (info == LAPACK_WORK_MEMORY_ERROR) throw std::bad_alloc();
   if (info != 0) throw std::runtime_error("dstevd failed with info " + std::to_string(info));
   modes.vectors = width.cwiseSqrt().cwiseInverse().asDiagonal() * modes.vectors;
   if (conductance_low == 0.0 && conductance_high == 0.0) {

@@ -43,6 +43,7 @@ struct PressureSolver::Impl {
         down(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())),
         up(down) {}
 
+  const BlasUse blas;  // first: before anything else is taken
   const Grid grid;
   const Slab slab;
   const AxisModes x, y;
@@ -58,7 +59,6 @@ PressureSolver::PressureSolver(const Grid& grid) : PressureSolver(grid, Slab(gri
 
 PressureSolver::PressureSolver(const Grid& grid, const Slab& slab) {
   const auto begin = std::chrono::steady_clock::now();
-  useOneBlasThread();
   impl_ = std::make_unique<Impl>(grid, slab);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   impl_->setup_seconds = spent.count();

@@ -3,11 +3,16 @@
 #include <mpi.h>
 
 #include <cstdlib>
+#include <string>
 
+#include "fluid/peer_watch.h"
 #include "fluid/shared_flow.h"
+#include "fluid/time_limit.h"
 
 namespace monarch_flight {
 namespace {
+
+constexpr double kTogether = 60.0;  // limit of beginning and ending together [s]
 
 bool startedByMpirun() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"}) {
@@ -29,19 +34,28 @@ int processes_here = 1;
 
 Processes::Processes(int* argc, char*** argv) {
   if (!startedByMpirun()) return;
-  MPI_Init(argc, argv);
+  const TimeLimit limit(kTogether, "the processes of the flow did not all begin within " +
+                                       std::to_string(static_cast<int>(kTogether)) + " s");
+  int level = 0;  // other threads never call MPI
+  MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &level);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   MPI_Comm here;
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &here);
   MPI_Comm_size(here, &processes_here);
   MPI_Comm_free(&here);
+  PeerWatch::begin(MPI_COMM_WORLD);
 }
 
 Processes::~Processes() {
   if (!running()) return;
   if (rank_ == 0 && count_ > 1) SharedFlow::dismiss(MPI_COMM_WORLD);
-  MPI_Finalize();
+  PeerWatch::limit(kTogether);
+  {
+    const PeerWait wait(WatchSlot::kEverybody);
+    MPI_Finalize();
+  }
+  PeerWatch::end();
 }
 
 void Processes::serveFlow() const { SharedFlow::serve(MPI_COMM_WORLD); }

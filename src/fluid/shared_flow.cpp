@@ -7,6 +7,8 @@
 #include <typeinfo>
 #include <utility>
 
+#include "fluid/blas.h"
+#include "fluid/peer_watch.h"
 #include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
@@ -25,9 +27,29 @@ enum class Order : int {
   kLeave
 };
 
+// Of the watchdog: a process that hangs is named before the coordinator gives up the whole node.
+constexpr double kWaitByWatchdog = 0.8;
+
+int rankIn(MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank;
+}
+
+/// Whom a process waits for when process 0 tells something.
+int sender(MPI_Comm comm) { return rankIn(comm) == 0 ? WatchSlot::kEverybody : 0; }
+
+/// Times that limit in which a wait may end within the call, as the coordinator waits for it.
+int patience(Order order) {
+  const bool once = order == Order::kMake || order == Order::kStart || order == Order::kSave ||
+                    order == Order::kRestore || order == Order::kField;
+  return once ? 10 : 1;
+}
+
 /// Values of process 0 to all. Motions are plain numbers and travel as bytes.
 template <class T>
 void share(MPI_Comm comm, T& value) {
+  const PeerWait wait(sender(comm));
   MPI_Bcast(&value, sizeof(T), MPI_BYTE, 0, comm);
 }
 
@@ -39,6 +61,7 @@ void share(MPI_Comm comm, std::vector<T, A>& values) {
   const long chunk = 1L << 28;  // bytes: MPI counts are int
   char* bytes = reinterpret_cast<char*>(values.data());
   for (long at = 0, end = n * static_cast<long>(sizeof(T)); at < end; at += chunk) {
+    const PeerWait wait(sender(comm));
     MPI_Bcast(bytes + at, static_cast<int>(std::min(chunk, end - at)), MPI_BYTE, 0, comm);
   }
 }
@@ -56,7 +79,19 @@ bool alike(const std::exception& e) {
 
 void give(MPI_Comm comm, Order order) {
   if (lost) throw std::runtime_error("the flow's processes are out of step after a failure of one");
+  PeerWatch::call(patience(order));
   share(comm, order);
+}
+
+/// The next call of process 0, however long that takes.
+Order taken(MPI_Comm comm) {
+  Order order = Order::kLeave;
+  {
+    const PeerWait wait(WatchSlot::kCall);
+    MPI_Bcast(&order, sizeof order, MPI_BYTE, 0, comm);
+  }
+  PeerWatch::call(patience(order));
+  return order;
 }
 
 /// Process 0's part of a call.
@@ -72,15 +107,18 @@ auto here(Call call) {
 
 /// Ends all processes with the reason.
 void endAll(MPI_Comm comm, const std::string& why) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
+  const int rank = rankIn(comm);
   // In one piece, so that no other process writes into it.
   std::cerr << "process " + std::to_string(rank) + " of the flow failed alone: " + why + "\n"
             << std::flush;
   MPI_Abort(comm, 1);
 }
 
-std::unique_ptr<NavierStokes> make(MPI_Comm comm, Grid grid, Air air, double length, double limit) {
+std::unique_ptr<NavierStokes> make(MPI_Comm comm, double watchdog_s, Grid grid, Air air,
+                                   double length, double limit) {
+  takeBlasBuffers();  // before the grid is there
+  share(comm, watchdog_s);
+  PeerWatch::limit(kWaitByWatchdog * watchdog_s);
   share(comm, grid.x.face);
   share(comm, grid.y.face);
   share(comm, grid.z.face);
@@ -98,10 +136,10 @@ std::unique_ptr<NavierStokes> make(MPI_Comm comm, Grid grid, Air air, double len
 }  // namespace
 
 SharedFlow::SharedFlow(const Grid& grid, const Air& air, double reference_length,
-                       double courant_limit, MPI_Comm comm)
+                       double courant_limit, MPI_Comm comm, double watchdog_s)
     : comm_(comm) {
   give(comm_, Order::kMake);
-  flow_ = here([&] { return make(comm_, grid, air, reference_length, courant_limit); });
+  flow_ = here([&] { return make(comm_, watchdog_s, grid, air, reference_length, courant_limit); });
 }
 
 void SharedFlow::start(const WingMotion& motion, double dt) {
@@ -165,13 +203,11 @@ void SharedFlow::serve(MPI_Comm comm) {
   std::vector<char> bytes;
   double number = 0;
   while (true) {
-    Order order = Order::kLeave;
-    share(comm, order);
     try {
-      switch (order) {
+      switch (taken(comm)) {
         case Order::kMake:
           flow.reset();  // never two of them
-          flow = make(comm, Grid(), Air(), 0, 0);
+          flow = make(comm, 0, Grid(), Air(), 0, 0);
           break;
         case Order::kStart:
           share(comm, motion), share(comm, number), flow->start(motion, number);

@@ -9,11 +9,14 @@ namespace monarch_flight {
 /// The flow solver on several processes, as process 0 sees it: every call is told to the others,
 /// which make the same call on their slab (`serve`). A failure that all share (wrong input,
 /// numerics) is thrown here; one of a process alone (no memory) ends them all with its reason on
-/// stderr, here when the program ends.
+/// stderr, here when the program ends; so does one that hangs (peer_watch.h).
 class SharedFlow : public FluidModel {
  public:
+  /// watchdog_s: limit of one exchange with the fluid as a whole [s], of which a wait of one
+  /// process for another may take four fifths (ten times that where the exchange may take ten times
+  /// as long: set-up, save, restore, the whole field); 0: waits have no limit.
   SharedFlow(const Grid& grid, const Air& air, double reference_length, double courant_limit,
-             MPI_Comm comm);
+             MPI_Comm comm, double watchdog_s = 0.0);
 
   void start(const WingMotion& motion, double dt) override;
   Loads evaluate(const WingMotion& next) override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "fluid/peer_watch.h"
 #include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
@@ -23,15 +24,18 @@ Slab::Slab(MPI_Comm comm, int planes) : comm_(comm), k0_(0), k1_(planes) {
 }
 
 void Slab::send(const double* data, int n, int to) const {
+  const PeerWait wait(to);
   MPI_Send(data, n, MPI_DOUBLE, to, kTag, comm_);
   *sent_ += n;
 }
 
 void Slab::receive(double* data, int n, int from) const {
+  const PeerWait wait(from);
   MPI_Recv(data, n, MPI_DOUBLE, from, kTag, comm_, MPI_STATUS_IGNORE);
 }
 
 void Slab::exchange(const double* mine, double* other, int n, int with) const {
+  const PeerWait wait(with);
   MPI_Sendrecv(mine, n, MPI_DOUBLE, with, kTag, other, n, MPI_DOUBLE, with, kTag, comm_,
                MPI_STATUS_IGNORE);
   *sent_ += n;
@@ -40,6 +44,7 @@ void Slab::exchange(const double* mine, double* other, int n, int with) const {
 void Slab::shift(const double* out, double* in, int n, int direction) const {
   const int to = rank_ + direction, from = rank_ - direction;
   const bool sends = to >= 0 && to < ranks_, receives = from >= 0 && from < ranks_;
+  const PeerWait wait(receives ? from : to);
   MPI_Sendrecv(out, sends ? n : 0, MPI_DOUBLE, sends ? to : MPI_PROC_NULL, kTag, in,
                receives ? n : 0, MPI_DOUBLE, receives ? from : MPI_PROC_NULL, kTag, comm_,
                MPI_STATUS_IGNORE);
@@ -47,11 +52,15 @@ void Slab::shift(const double* out, double* in, int n, int direction) const {
 }
 
 void Slab::sum(double* values, int n) const {
-  if (ranks_ > 1) MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, comm_);
+  if (ranks_ == 1) return;
+  const PeerWait wait(WatchSlot::kEverybody);
+  MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, comm_);
 }
 
 double Slab::max(double value) const {
-  if (ranks_ > 1) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, comm_);
+  if (ranks_ == 1) return value;
+  const PeerWait wait(WatchSlot::kEverybody);
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, comm_);
   return value;
 }
 
@@ -59,6 +68,7 @@ std::vector<char> Slab::gather(const std::vector<char>& mine, std::size_t piece)
   if (ranks_ == 1) return mine;
   const long long size = static_cast<long long>(mine.size());
   std::vector<long long> sizes(ranks_);
+  const PeerWait wait(rank_ == 0 ? WatchSlot::kEverybody : 0);
   MPI_Gather(&size, 1, MPI_LONG_LONG, sizes.data(), 1, MPI_LONG_LONG, 0, comm_);
   if (rank_ > 0) {
     for (std::size_t at = 0; at < mine.size(); at += piece) {

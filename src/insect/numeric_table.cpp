@@ -33,10 +33,31 @@ std::vector<std::string> cells(const std::string& line) {
   return result;
 }
 
+/// What separates the columns in place of commas, in words; "" where nothing does. Blanks may stand
+/// in a name, and tabs beside a comma.
+std::string otherSeparator(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) {
+    if (text.find(';') != std::string::npos) return "semicolons";
+    if (text.find('\t') != std::string::npos) return "tabs";
+  }
+  return "";
+}
+
+std::string separatorFault(const std::string& where, const std::string& text,
+                           const std::string& separator) {
+  return where + " = '" + text + "': columns must be separated by commas, not " + separator +
+         ", and numbers have a decimal point; convert the file";
+}
+
 /// The names of a header line, none twice.
 std::vector<std::string> header(const std::string& text, const std::string& name,
                                 std::vector<std::string>& faults) {
   std::vector<std::string> names = cells(text);
+  std::string separator = otherSeparator(names);
+  if (separator.empty() && names.size() == 1 && text.find(' ') != std::string::npos) {
+    separator = "blanks";
+  }
+  if (!separator.empty()) throw InputError(separatorFault(name + ": header", text, separator));
   for (auto one = names.begin(); one != names.end(); ++one) {
     if (std::find(names.begin(), one, *one) == one) continue;
     faults.push_back(name + ": column '" + *one + "' is given twice; remove or rename one of them");
@@ -48,6 +69,11 @@ std::vector<std::string> header(const std::string& text, const std::string& name
 std::vector<double> parseRow(const std::vector<std::string>& texts, const NumericTable& table,
                              const std::string& where, std::vector<std::string>& faults) {
   std::vector<double> row;
+  const std::string separator = otherSeparator(texts);
+  if (!separator.empty()) {
+    faults.push_back(separatorFault(where, texts[0], separator));
+    return row;
+  }
   if (texts.size() != table.columns.size()) {
     faults.push_back(where + " has " + std::to_string(texts.size()) + " values: must be " +
                      std::to_string(table.columns.size()) + " as in the header; complete the row");

@@ -6,78 +6,11 @@
 #include <stdexcept>
 
 #include "insect/smooth_spline.h"
+#include "insect/table_checks.h"
 #include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
 namespace {
-
-constexpr double kGapFactor = 1.5;
-constexpr double kUnitTolerance = 1e-4;
-constexpr std::size_t kMostFaults = 10;
-
-std::string place(const NumericTable& table, std::size_t row, const std::string& column) {
-  return table.name + ": row " + std::to_string(row + 1) + ", column " + column;
-}
-
-void checkTimes(const NumericTable& table, std::vector<std::string>& faults) {
-  std::vector<double> spacing;
-  for (std::size_t i = 1; i < table.rows.size(); ++i) {
-    spacing.push_back(table.rows[i][0] - table.rows[i - 1][0]);
-  }
-  std::vector<double> sorted = spacing;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const double median = sorted[sorted.size() / 2];
-  for (std::size_t i = 0; i < spacing.size() && faults.size() < kMostFaults; ++i) {
-    std::ostringstream text;
-    text.precision(9);
-    text << place(table, i + 1, "t") << " = " << table.rows[i + 1][0] << " s: ";
-    if (!(spacing[i] > 0.0)) {
-      text << "must be > " << table.rows[i][0] << " s of the row before; time must not go back";
-      faults.push_back(text.str());
-    } else if (median > 0.0 && spacing[i] > kGapFactor * median) {
-      text << "gap of " << spacing[i] << " s: must be <= " << kGapFactor
-           << " times the usual spacing of " << median << " s; fill in the missing rows";
-      faults.push_back(text.str());
-    }
-  }
-}
-
-/// Checks unit length and the turn from row to row, and makes the signs continuous (q and -q are
-/// the same attitude).
-void checkQuaternions(NumericTable& table, std::vector<std::string>& faults) {
-  constexpr int kFirst = 4;
-  Eigen::Vector4d previous = Eigen::Vector4d::Zero();
-  for (std::size_t i = 0; i < table.rows.size() && faults.size() < kMostFaults; ++i) {
-    Eigen::Map<Eigen::Vector4d> q(table.rows[i].data() + kFirst);
-    const double norm = q.norm();
-    std::ostringstream text;
-    if (std::abs(norm - 1.0) > kUnitTolerance) {
-      text << place(table, i, "qw..qz") << ": length " << norm << ": must be 1 within "
-           << kUnitTolerance << "; normalise the quaternion";
-      faults.push_back(text.str());
-      continue;
-    }
-    q /= norm;
-    if (q.dot(previous) < 0.0) q = -q;
-    if (!previous.isZero() && q.dot(previous) < std::cos(M_PI / 4.0)) {
-      text << place(table, i, "qw..qz") << ": turned by "
-           << 2.0 * std::acos(std::min(1.0, q.dot(previous))) * 180.0 / M_PI
-           << " deg since the row before: must be <= 90; give more rows";
-      faults.push_back(text.str());
-    }
-    previous = q;
-  }
-}
-
-void checkFinite(const NumericTable& table, std::vector<std::string>& faults) {
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    for (std::size_t k = 0; k < table.columns.size() && faults.size() < kMostFaults; ++k) {
-      if (!std::isfinite(table.rows[i][k])) {
-        faults.push_back(place(table, i, table.columns[k]) + " is not a finite number; correct it");
-      }
-    }
-  }
-}
 
 Coordinate coordinate(const SmoothSpline::Value& v, int i) { return {v.q[i], v.qd[i], v.qdd[i]}; }
 
@@ -116,17 +49,14 @@ const std::vector<std::string>& TableMotion::columnsOf(TableKind kind) {
   return kind == TableKind::kWing ? wing : body;
 }
 
-TableMotion::TableMotion(const NumericTable& given, TableKind kind) : kind_(kind) {
+TableMotion::TableMotion(const NumericTable& given, TableKind kind, double length) : kind_(kind) {
   NumericTable table = given.select(columnsOf(kind));
   const std::size_t n = table.rows.size();
   if (n < static_cast<std::size_t>(SmoothSpline::kLeastSamples)) {
     throw InputError(table.name + ": " + std::to_string(n) + " rows: must be >= " +
                      std::to_string(SmoothSpline::kLeastSamples) + "; give more rows");
   }
-  std::vector<std::string> faults;
-  checkFinite(table, faults);
-  if (faults.empty()) checkTimes(table, faults);
-  if (faults.empty() && kind == TableKind::kWing) checkQuaternions(table, faults);
+  const std::vector<std::string> faults = checkTable(table, kind, length);
   if (!faults.empty()) throw InputError(faults);
 
   std::vector<double> times;

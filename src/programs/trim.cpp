@@ -9,8 +9,10 @@
 int main(int argc, char** argv) {
   try {
     const char* config = std::getenv("MONARCH_CONFIG");
-    return monarch_flight::runTrim(monarch_flight::trimCommand({argv + 1, argv + argc}),
-                                   config != nullptr ? config : MONARCH_CONFIG_DIR, std::cout);
+    const std::string config_dir = config != nullptr ? config : MONARCH_CONFIG_DIR;
+    const auto command = monarch_flight::trimCommand({argv + 1, argv + argc});
+    return command.control ? monarch_flight::runControl(command, config_dir, std::cout)
+                           : monarch_flight::runTrim(command, config_dir, std::cout);
   } catch (const monarch_flight::InputError& e) {
     std::cerr << "trim: " << e.what() << std::endl;
     return 2;

@@ -185,6 +185,8 @@ ParticipantRequest toMessage(const Request& request) {
   out.loads = toMessage(request.loads);
   out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
+  out.q_threshold = request.q_threshold;
+  out.vortex_limit = static_cast<std::uint32_t>(request.vortex_limit);
   out.want_flow = request.want_flow;
   return out;
 }
@@ -198,6 +200,8 @@ Request fromMessage(const ParticipantRequest& request) {
   out.loads = fromMessage(request.loads);
   out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
+  out.q_threshold = request.q_threshold;
+  out.vortex_limit = static_cast<int>(request.vortex_limit);
   out.want_flow = request.want_flow;
   return out;
 }

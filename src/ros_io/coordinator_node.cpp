@@ -2,8 +2,10 @@
 
 #include <random>
 
+#include "monarch_flight/ros_io/conversions.h"
 #include "monarch_flight/ros_io/flight_control.h"
 #include "monarch_flight/ros_io/flight_run.h"
+#include "monarch_flight/ros_io/guidance_by_node.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
 #include "monarch_flight/ros_io/ros_output.h"
@@ -13,7 +15,14 @@ namespace monarch_flight {
 namespace {
 
 const ros::WallDuration kHeldWait(0.01);  // of a held run, for messages; then it looks for orders
-constexpr Role kSolvers[] = {Role::kFluid, Role::kFlight, Role::kWing};
+constexpr std::uint32_t kCommandQueue = 100;
+
+/// The nodes that a run needs.
+std::vector<Role> rolesOf(const Case& c) {
+  std::vector<Role> roles = {Role::kFluid, Role::kFlight, Role::kWing};
+  if (c.guidance.kind == GuidanceKind::kNode) roles.push_back(Role::kGuidance);
+  return roles;
+}
 
 std::uint64_t randomRunId() {
   std::random_device random;
@@ -35,16 +44,15 @@ CoordinatorNode::CoordinatorNode(const StopFlag& stop)
   if (Token::fromEnvironment().empty()) {
     ROS_WARN("%s is not set: every node of this master can take part in the run", Token::kVariable);
   }
-  for (Role role : kSolvers) {
+  for (Role role : rolesOf(case_)) {
     const LockstepIdentity identity{role, case_.name, case_.sha256, Token::fromEnvironment()};
-    solvers_[static_cast<std::size_t>(role)] =
-        std::make_unique<RosParticipant>(node_, identity, run_);
+    nodes_.push_back(std::make_unique<RosParticipant>(node_, identity, run_));
   }
 }
 
 int CoordinatorNode::run() {
   try {
-    for (const auto& participant : solvers_) participant->connect();
+    for (const auto& participant : nodes_) participant->connect();
     const int code = fly();
     reportIgnored();
     ros::WallDuration(0.2).sleep();  // the last messages are still on their way to the listeners
@@ -63,19 +71,48 @@ int CoordinatorNode::fly() {
   FlightControl control(
       node_, case_, parameters_.paused, [this] { keepAlive(); }, stop_);
   run.addSink(control);
-  const auto guidance = makeParticipant(Role::kGuidance, case_, checkpointFolder(out));
-  return run.fly(run_.id, {solvers_[0].get(), solvers_[1].get(), solvers_[2].get(), guidance.get()},
+  const auto guidance = makeGuidance(checkpointFolder(out));
+  return run.fly(run_.id, {nodes_[0].get(), nodes_[1].get(), nodes_[2].get(), guidance.get()},
                  control, stop_);
+}
+
+/// In this process, led by the topic `command` or by a node where the case says so.
+std::unique_ptr<Participant> CoordinatorNode::makeGuidance(const std::string& checkpoints) {
+  const GuidanceKind kind = case_.guidance.kind;
+  if (kind == GuidanceKind::kCommands || kind == GuidanceKind::kNode)
+    inbox_ = std::make_shared<CommandInbox>();
+  auto own = makeParticipant(Role::kGuidance, case_, checkpoints, inbox_);
+  if (kind == GuidanceKind::kNode) {
+    own_ = std::move(own);
+    return std::make_unique<GuidanceByNode>(*nodes_.back(), *own_, inbox_);
+  }
+  auto options = ros::SubscribeOptions::create<WingbeatCommand>(
+      "command", kCommandQueue, [this](const WingbeatCommandConstPtr& m) { onCommand(m); },
+      ros::VoidConstPtr(), &run_.queue);
+  commands_ = node_.subscribe(options);
+  return own;
+}
+
+/// The queue is looked at while the coordinator waits for the nodes, so commands come between
+/// steps.
+void CoordinatorNode::onCommand(const WingbeatCommandConstPtr& command) {
+  if (inbox_) {
+    inbox_->post(fromMessage(*command), command->at_once);
+    return;
+  }
+  ROS_WARN_ONCE(
+      "a command came, but nobody may lead this flight: guidance/type must be commands "
+      "(guidance:=commands)");
 }
 
 void CoordinatorNode::keepAlive() {
   run_.queue.callAvailable(kHeldWait);
-  solvers_[0]->requireEveryone(" while the run is held");
-  solvers_[0]->greetEveryone();
+  nodes_[0]->requireEveryone(" while the run is held");
+  nodes_[0]->greetEveryone();
 }
 
 void CoordinatorNode::dismiss() noexcept {
-  for (const auto& participant : solvers_) {
+  for (const auto& participant : nodes_) {
     try {
       Request farewell;
       farewell.key.run = run_.id;
@@ -87,7 +124,7 @@ void CoordinatorNode::dismiss() noexcept {
 }
 
 void CoordinatorNode::reportIgnored() const {
-  for (const auto& participant : solvers_) {
+  for (const auto& participant : nodes_) {
     const IgnoredMessages counters = participant->ignored();
     if (counters.total() > 0) {
       ROS_INFO("messages of %s that were ignored: %s", participant->name().c_str(),

@@ -167,6 +167,7 @@ void FlightControl::endGoal() {
 }
 
 void FlightControl::onStep(const CommittedStep& step) {
+  hold_.committed(step.step);
   const std::lock_guard<std::mutex> lock(goal_mutex_);
   if (!goal_) return;
   const auto now = std::chrono::steady_clock::now();

@@ -40,6 +40,23 @@ DiagnosticStatus messages(const IgnoredMessages& ignored) {
   return out;
 }
 
+DiagnosticStatus guidance(const GuidanceReport& report) {
+  DiagnosticStatus out;
+  out.name = "coordinator: guidance";
+  out.hardware_id = "monarch_flight";
+  const bool told = report.lost || report.clipped + report.refused > 0;
+  out.level = told ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+  out.message = report.lost            ? "the controller has given up"
+                : report.refused > 0   ? "commands were refused: not finite"
+                : report.clipped > 0   ? "commands were cut to their bounds"
+                                       : "as commanded";
+  out.values = {entry("phase [flaps]", report.phase), count("clipped", report.clipped),
+                count("refused", report.refused)};
+  for (const CommandInfo& info : kCommandTable)
+    out.values.push_back(entry(info.name, report.applied.*info.value));
+  return out;
+}
+
 }  // namespace
 
 diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep& step,
@@ -78,7 +95,7 @@ diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep
       entry("exchange [s]", step.exchange_s)};
   diagnostic_msgs::DiagnosticArray out;
   out.header.stamp = stamp;
-  out.status = {coupling, solvers, messages(step.ignored)};
+  out.status = {coupling, solvers, messages(step.ignored), guidance(step.guidance)};
   return out;
 }
 

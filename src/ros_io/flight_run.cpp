@@ -7,6 +7,7 @@
 #include "monarch_flight/fields/field_output.h"
 #include "monarch_flight/ros_io/node_main.h"
 #include "monarch_flight/run/federation.h"
+#include "monarch_flight/run/remarks.h"
 
 namespace monarch_flight {
 
@@ -22,6 +23,8 @@ FlightRun::FlightRun(const Case& c, const std::string& out, bool resume, int ran
     messages_ = std::make_unique<MessageSink>(c, listeners, checkpoints_.outputs());
   std::cout << "case " << c.name << ": " << c.time.steps << " steps of " << c.time.dt
             << " s; results in " << out << std::endl;
+  for (const std::string& remark : runRemarks(c, c.time.steps))
+    std::cout << remark << std::endl;
   if (checkpoints_.resumption()) {
     progress_.resumeAt(checkpoints_.resumption()->step);
     tell();
@@ -65,7 +68,7 @@ int FlightRun::fly(std::uint64_t run_id, const Participants& participants, RunCo
     return kExitComplete;
   }
   std::cerr << "flight failed: " << result.failure << std::endl;
-  if (checkpoints_.kept())
+  if (checkpoints_.kept().value_or(0) > 0)  // else it is as good to begin anew
     std::cerr << "it can go on from step " << *checkpoints_.kept()
               << ": " << checkpoints_.command() << std::endl;
   return stop ? kExitInterrupted : kExitFailed;

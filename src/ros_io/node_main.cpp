@@ -15,6 +15,7 @@
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/participant_node.h"
 #include "monarch_flight/run/federation.h"
+#include "monarch_flight/run/remarks.h"
 #include "monarch_flight/viz/urdf.h"
 
 namespace monarch_flight {
@@ -98,6 +99,12 @@ int participantMain(Role role, int argc, char** argv) {
                   [role] { return ParticipantNode(role, stop_requested).run(); });
 }
 
+int guidanceMain(int argc, char** argv,
+                 const std::function<std::unique_ptr<Guidance>(const Case&)>& make) {
+  return nodeMain(roleName(Role::kGuidance), argc, argv,
+                  [&make] { return ParticipantNode(stop_requested, make).run(); });
+}
+
 int inProcessMain(int argc, char** argv) {
   const Processes processes(&argc, &argv);
   if (processes.rank() > 0) return serveFlow(processes);
@@ -105,9 +112,15 @@ int inProcessMain(int argc, char** argv) {
     const RunParameters parameters = runParameters(argc, argv);
     if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
+    if (c.guidance.kind == GuidanceKind::kNode)
+      throw InputError(
+          "guidance/type = node: a run in one process has no nodes; choose another type, or fly with "
+          "nodes");
     if (parameters.plan) {
       const std::string plan = plannedRun(parameters, c, false);
       std::cout << (plan.empty() ? "quasi-steady air: no grid to plan\n" : plan);
+      for (const std::string& remark : runRemarks(c, c.time.steps))
+        std::cout << remark << std::endl;
       return static_cast<int>(kExitComplete);
     }
     requireProcesses(parameters, c);

@@ -8,6 +8,7 @@
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
 #include "monarch_flight/run/federation.h"
+#include "monarch_flight/run/kept_participant.h"
 
 namespace monarch_flight {
 namespace {
@@ -30,7 +31,8 @@ std::string checkpointsOfTheRun() {
                                                             : std::string();
 }
 
-// For tests: MONARCH_ANSWER_DELAY_MS delays every answer by a random time up to so many milliseconds.
+// For tests: MONARCH_ANSWER_DELAY_MS delays every answer by a random time up to so many
+// milliseconds.
 void delayForTest() {
   static const char* const limit = std::getenv("MONARCH_ANSWER_DELAY_MS");
   if (limit == nullptr) return;
@@ -45,7 +47,7 @@ Reply ParticipantOnStart::exchange(const Request& request) {
   delayForTest();
   if (request.key.phase == Phase::kStart) {
     participant_.reset();  // a reset never holds two flows
-    participant_ = makeParticipant(role_, case_, checkpointsOfTheRun());
+    participant_ = make_(checkpointsOfTheRun());
   }
   if (participant_) return participant_->exchange(request);
   Reply reply;
@@ -56,9 +58,23 @@ Reply ParticipantOnStart::exchange(const Request& request) {
 
 ParticipantNode::ParticipantNode(Role role, const StopFlag& stop)
     : case_(readCase(role)),
-      participant_(role, case_),
+      participant_([this, role](const std::string& checkpoints) {
+        return makeParticipant(role, case_, checkpoints);
+      }),
       server_(ros::NodeHandle(kNamespace),
               {role, case_.name, case_.sha256, Token::fromEnvironment()}, participant_,
+              limitsFor(case_.watchdog_s), stop) {}
+
+ParticipantNode::ParticipantNode(const StopFlag& stop,
+                                 const std::function<std::unique_ptr<Guidance>(const Case&)>& make)
+    : case_(readCase(Role::kGuidance)),
+      participant_([this, make](const std::string& checkpoints) {
+        return std::make_unique<KeptParticipant>(
+            roleName(Role::kGuidance), std::make_unique<GuidanceParticipant>(makeModel(case_), make(case_)),
+            checkpoints);
+      }),
+      server_(ros::NodeHandle(kNamespace),
+              {Role::kGuidance, case_.name, case_.sha256, Token::fromEnvironment()}, participant_,
               limitsFor(case_.watchdog_s), stop) {}
 
 int ParticipantNode::run() {

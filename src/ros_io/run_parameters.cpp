@@ -22,8 +22,8 @@ using Faults = std::vector<std::string>;
 /// Known keys: of a command line (`where` is empty), or of the parameter server.
 std::string known(const std::string& where) {
   const std::string common =
-      "case, out, resume, directory, fluid, grid, flaps, steps_per_flap, record, fields_every, "
-      "checkpoint_every, ranks, paused, ";
+      "case, out, resume, directory, fluid, grid, guidance, guidance_file, flaps, steps_per_flap, "
+      "record, fields_every, checkpoint_every, ranks, paused, ";
   return common + (where.empty() ? "plan" : "watchdog, checkpoints");
 }
 
@@ -64,7 +64,7 @@ void take(const std::string& key, const std::string& value, const std::string& w
     // of the coordinator to the solver nodes: participant_node.cpp
   } else if (key == "directory") {
     out.directory = value;
-  } else if (oneOf(key, {"fluid", "grid", "flaps", "steps_per_flap", "record", "fields_every",
+  } else if (oneOf(key, {"fluid", "grid", "guidance", "guidance_file", "flaps", "steps_per_flap", "record", "fields_every",
                          "checkpoint_every"})) {
     out.overrides[key] = value;
   } else if (key == "plan" && where.empty()) {
@@ -176,7 +176,11 @@ Case loadCase(const RunParameters& parameters) {
   std::string name = parameters.name;
   const bool path = name.find('/') != std::string::npos || name.find(".yaml") != std::string::npos;
   if (path && !parameters.directory.empty()) name = fs::path(parameters.directory) / name;
-  Case c = loadCase(name, parameters.overrides, configDirectory());
+  CaseOverrides overrides = parameters.overrides;
+  const auto file = overrides.find("guidance_file");
+  if (file != overrides.end() && !parameters.directory.empty())
+    file->second = (fs::path(parameters.directory) / file->second).lexically_normal();
+  Case c = loadCase(name, overrides, configDirectory());
   if (parameters.watchdog_s > 0.0) c.watchdog_s = parameters.watchdog_s;
   return c;
 }
@@ -199,7 +203,7 @@ std::string plannedRun(const RunParameters& parameters, const Case& c, bool node
   const int here = parameters.ranks == flowProcesses() ? flowProcessesHere() : parameters.ranks;
   const RunPlan plan = planRun(c, parameters.ranks, here);
   requirePossible(plan);
-  if (nodes) requireInTime(plan, c.watchdog_s);
+  if (nodes || parameters.ranks > 1) requireInTime(plan, c.watchdog_s);
   return describe(plan);
 }
 

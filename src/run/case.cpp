@@ -1,5 +1,7 @@
 #include "monarch_flight/run/case.h"
 
+#include <limits>
+
 #include "monarch_flight/run/sha256.h"
 #include "run/case_document.h"
 #include "run/case_parts.h"
@@ -17,6 +19,7 @@ void finishCase(Case& c, const CaseMotion& motion, const InitialValues& initial,
   const StartValues start = startValues(c, initial, *motion.motion, faults);
   c.motion = std::make_shared<StartMotion>(motion.motion, start, c.time.t_start);
   c.wind = windOf(c, wind, faults);
+  checkTimeStep(c, faults);
   checkGrid(c, faults);
 }
 
@@ -31,16 +34,22 @@ Case readCase(Section& root, Faults& faults) {
   if (insect) c.insect = *insect;
   const CaseWind wind = readFluid(root.section("fluid"), kind == "butterfly", c, faults);
   readGrid(root.section("grid"), c, faults);
-  const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", faults);
+  const double chord =
+      insect ? insect->planform.meanChord() : std::numeric_limits<double>::infinity();
+  const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", chord, faults);
   const InitialValues initial = readInitial(root);
   c.free = readFree(root.section("free"));
   readTime(root.section("time"), motion.frequency, c);
   readCoupling(root.section("coupling"), insect ? insect->planform.meanChord() : 1.0, c, faults);
+  c.guidance = readGuidance(root.section("guidance"), motion.frequency, c, faults);
   readOutput(root.section("output"), c);
   c.watchdog_s = root.number("watchdog_s", {Bound::kPositive, "s", "60 is usual"});
   root.finish();
   if (insect) checkFree(c, faults);
+  if (insect) checkMirrored(c, motion, initial, faults);
   if (insect && motion.motion) checkMotion(c, motion, faults);
+  c.guidance.wingbeat.dt = c.time.dt;
+  if (root.clean()) checkGuidance(c, motion, faults);
   checkWind(c, wind, faults);
   if (root.clean()) finishCase(c, motion, initial, wind, faults);
   return c;

@@ -67,6 +67,28 @@ FourierSeries readSway(Section& body, const std::string& key, double frequency) 
   return {};
 }
 
+constexpr char kMirrored[] = " while only one wing is solved and mirrored; ";
+
+/// A lateral velocity in a Fourier motion, or "" (CaseMotion::lateral).
+std::string lateralFault(const Section& body, const Eigen::Vector3d& velocity) {
+  if (velocity.y() == 0.0) return "";
+  return body.pathOf("velocity") + "[1] = " + exactText(velocity.y()) + " m/s: must be 0" +
+         kMirrored + "set it to 0, or choose insect/kind bare_wing";
+}
+
+/// The first row of a table that lies further from the plane of the first one than rounding, or "".
+std::string lateralFault(const NumericTable& table, double chord) {
+  constexpr double kRounding = 1e-6;  // mean chords
+  const std::vector<double> y = table.column("y");
+  for (std::size_t i = 1; i < y.size(); ++i) {
+    if (std::abs(y[i] - y[0]) <= kRounding * chord) continue;
+    return table.name + ": row " + std::to_string(i + 1) + ", column y = " + exactText(y[i]) +
+           " m: must stay " + exactText(y[0]) + " m" + kMirrored +
+           "keep it there, or choose insect/kind bare_wing";
+  }
+  return "";
+}
+
 CaseMotion readFourier(Section& section, bool bare_wing) {
   FourierMotionSettings settings;
   settings.frequency = section.number(
@@ -86,6 +108,7 @@ CaseMotion readFourier(Section& section, bool bare_wing) {
   body.finish();
   CaseMotion result;
   result.frequency = f;
+  result.lateral = lateralFault(body, settings.velocity);
   if (section.clean()) result.motion = std::make_shared<FourierMotion>(settings);
   return result;
 }
@@ -94,7 +117,7 @@ NumericTable readTableRows(Section& section, TableKind kind) {
   return readRows(section, TableMotion::columnsOf(kind));
 }
 
-CaseMotion readTable(Section& section, Faults& faults) {
+CaseMotion readTable(Section& section, double chord, Faults& faults) {
   CaseMotion result;
   result.is_table = true;
   const std::string kind_text = section.choice("kind", {"wing", "body"});
@@ -106,7 +129,8 @@ CaseMotion readTable(Section& section, Faults& faults) {
   try {
     const NumericTable table = readTableRows(section, kind);
     if (!section.clean()) return result;
-    const auto motion = std::make_shared<TableMotion>(table, kind);
+    const auto motion = std::make_shared<TableMotion>(table, kind, chord);
+    result.lateral = lateralFault(table, chord);
     result.t_begin = motion->tBegin();
     result.t_end = motion->tEnd();
     result.motion = motion;
@@ -118,12 +142,12 @@ CaseMotion readTable(Section& section, Faults& faults) {
 
 }  // namespace
 
-CaseMotion readMotion(Section section, bool bare_wing, Faults& faults) {
+CaseMotion readMotion(Section section, bool bare_wing, double chord, Faults& faults) {
   const std::string type = section.choice("type", {"fourier", "table"});
   CaseMotion result;
   result.frequency = 1.0;  // unknown: no further fault from it
   if (type.empty()) return result;
-  result = type == "fourier" ? readFourier(section, bare_wing) : readTable(section, faults);
+  result = type == "fourier" ? readFourier(section, bare_wing) : readTable(section, chord, faults);
   section.finish();
   return result;
 }

@@ -19,6 +19,7 @@ struct CaseMotion {
   bool is_table = false;
   bool is_wing_table = false;
   double t_begin = 0.0, t_end = 0.0;  ///< reach of a table [s]
+  std::string lateral;  ///< fault of a motion with a lateral velocity; "": it has none
 };
 
 /// Explicit start values as written; none: the prescribed motion's.
@@ -52,8 +53,11 @@ CaseWind readFluid(Section section, bool mirrored, Case& c, Faults& faults);
 /// fluid/wind.
 CaseWind readWind(Section& fluid, bool mirrored, Faults& faults);
 void readGrid(Section section, Case& c, Faults& faults);
-CaseMotion readMotion(Section section, bool bare_wing, Faults& faults);
+/// `chord`: mean chord of the wing, infinite when it is not known [m].
+CaseMotion readMotion(Section section, bool bare_wing, double chord, Faults& faults);
 InitialValues readInitial(Section& root);
+/// `c`: with what is free, time and coupling read.
+GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults);
 FreeCoordinates readFree(Section section);
 void readTime(Section section, double frequency, Case& c);
 void readCoupling(Section section, double mean_chord, Case& c, Faults& faults);
@@ -67,10 +71,17 @@ NumericTable readRows(Section& section, const std::vector<std::string>& columns)
 void checkFree(const Case& c, Faults& faults);
 /// The motion must reach over the whole run; table kinds must suit the insect.
 void checkMotion(const Case& c, const CaseMotion& motion, Faults& faults);
+/// What leads the motion must suit it and the run.
+void checkGuidance(const Case& c, const CaseMotion& motion, Faults& faults);
 /// The wind's table must reach over the whole run.
 void checkWind(const Case& c, const CaseWind& wind, Faults& faults);
 /// The wind along c.motion, from where that is at t_start.
 std::shared_ptr<const WindModel> windOf(const Case& c, const CaseWind& wind, Faults& faults);
+/// An insect of which one wing is solved, and mirrored, can have no lateral velocity in its air.
+void checkMirrored(const Case& c, const CaseMotion& motion, const InitialValues& initial,
+                   Faults& faults);
+/// The time step must resolve the motion: turns of the wing and the swings of a free hinge.
+void checkTimeStep(const Case& c, Faults& faults);
 /// Start values must belong to free coordinates; returns them completed from the motion at t_start.
 StartValues startValues(const Case& c, const InitialValues& initial, const PrescribedMotion& motion,
                         Faults& faults);

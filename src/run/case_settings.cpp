@@ -17,6 +17,15 @@ void keep(Value& value, const Faults& faults, const Read& read) {
 }
 
 constexpr double kRounding = 1e-6;  // of a time, over the time step
+constexpr double kRemainder =
+    1e-3;  // of a step: the rounding of a length that is given in decimals
+
+/// Whole steps in so many; what is left of them is kept.
+double wholeSteps(double steps, TimeGrid& time) {
+  const double whole = std::floor(steps + kRemainder);
+  time.remainder = std::isfinite(steps) && steps - whole > kRemainder ? steps - whole : 0.0;
+  return whole;
+}
 
 }  // namespace
 
@@ -90,7 +99,7 @@ void readTime(Section section, double frequency, Case& c) {
     c.time.dt = section.number("dt", {Bound::kPositive, "s", "give the time step"});
     const double duration =
         section.number("duration", {Bound::kPositive, "s", "give the length of the run"});
-    steps = std::ceil(duration / c.time.dt * (1.0 - 1e-12));
+    steps = wholeSteps(duration / c.time.dt, c.time);
   } else {
     const int per_flap = section.integer("steps_per_flap", "500 is usual");
     const double flaps = section.number("flaps", {Bound::kPositive, "", "2 is usual"});
@@ -103,14 +112,15 @@ void readTime(Section section, double frequency, Case& c) {
           ": this motion has no flapping period (motion/frequency is 0); give dt and duration");
     } else if (section.clean()) {
       c.time.dt = c.time.period / per_flap;
-      steps = std::round(flaps * per_flap);
+      steps = wholeSteps(flaps * per_flap, c.time);
     }
   }
   section.finish();
   if (!section.clean()) return;
   if (!(steps >= 1.0) || steps > std::numeric_limits<std::uint32_t>::max()) {
-    section.fault("duration", " amounts to " + exactText(steps) +
-                                  " steps: must be 1 to 4294967295; change the length or the step");
+    section.fault(by_step ? "duration" : "flaps",
+                  " amounts to " + exactText(steps + c.time.remainder) +
+                      " steps: must be 1 to 4294967295; change the length or the step");
     return;
   }
   c.time.steps = static_cast<std::uint32_t>(steps);

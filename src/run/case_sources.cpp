@@ -107,6 +107,8 @@ void checkTwins(const YAML::Node& map, const std::string& above, Faults& faults)
 void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& faults) {
   const std::map<std::string, std::pair<const char*, const char*>> known{
       {"fluid", {"fluid", "solver"}},
+      {"guidance", {"guidance", "type"}},
+      {"guidance_file", {"guidance", "file"}},
       {"flaps", {"time", "flaps"}},
       {"steps_per_flap", {"time", "steps_per_flap"}},
       {"record", {"output", "record"}},
@@ -120,12 +122,14 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
     const auto target = known.find(key);
     if (target == known.end()) {
       faults.add(key + ":=" + value +
-                 " is not a known override: known are fluid, grid, flaps, steps_per_flap, record, "
-                 "fields_every, checkpoint_every; correct or remove it");
+                 " is not a known override: known are fluid, grid, guidance, guidance_file, flaps, "
+                 "steps_per_flap, record, fields_every, checkpoint_every; correct or remove it");
       continue;
     }
     const auto [section, name] = target->second;
-    if (get(root, section).IsDefined() && get(root, section).IsMap()) root[section][name] = value;
+    if (!get(root, section).IsDefined() || !get(root, section).IsMap()) continue;
+    root[section][name] = value;
+    if (key == "guidance_file") root[section].remove("rows");  // of a resolved case
   }
 }
 

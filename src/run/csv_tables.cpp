@@ -23,6 +23,25 @@ void put(std::string& row, const Coordinate& c) {
 
 void putInteger(std::string& row, unsigned long value) { row += std::to_string(value) + ","; }
 
+/// What a replay needs beside the columns above (guidance/replay_guidance.h).
+void putGuidance(std::string& row, const CommittedStep& step) {
+  for (const Coordinate* c : {&step.angles.phi, &step.angles.psi, &step.angles.theta_A}) {
+    put(row, c->qd);
+    put(row, c->qdd);
+  }
+  put(row, step.guided.rest_angle);
+  put(row, step.guided.wind.v);
+  put(row, step.guided.wind.a);
+  const GuidanceReport& report = step.guidance;
+  put(row, report.phase);
+  putInteger(row, report.clipped);
+  putInteger(row, report.refused);
+  putInteger(row, report.lost);
+  for (const WingbeatChange* change : {&report.command, &report.applied}) {
+    for (const CommandInfo& info : kCommandTable) put(row, change->*info.value);
+  }
+}
+
 void endRow(std::string& row) { row.back() = '\n'; }
 
 OutputMark markOf(StateVisitor* resumed, const std::string& name) {
@@ -44,10 +63,19 @@ void showMark(StateVisitor& state, const std::string& name, OutputMark& mark) {
 }
 
 const std::string& FlightTable::header() {
-  static const std::string names =
-      "t,x,y,z,vx,vy,vz,ax,ay,az,theta_B,theta_B_dot,theta_B_ddot,qw,qx,qy,qz,"
-      "phi,psi,theta_R,theta_R_dot,theta_R_ddot,theta_A,fx,fy,fz,mx,my,mz,"
-      "fx_p,fy_p,fz_p,mx_p,my_p,mz_p,FX,FY,FZ,sub_iterations,courant";
+  static const std::string names = [] {
+    std::string all =
+        "t,x,y,z,vx,vy,vz,ax,ay,az,theta_B,theta_B_dot,theta_B_ddot,qw,qx,qy,qz,"
+        "phi,psi,theta_R,theta_R_dot,theta_R_ddot,theta_A,fx,fy,fz,mx,my,mz,"
+        "fx_p,fy_p,fz_p,mx_p,my_p,mz_p,FX,FY,FZ,sub_iterations,courant,"
+        "phi_dot,phi_ddot,psi_dot,psi_ddot,theta_A_dot,theta_A_ddot,rest_angle,wx,wy,wz,wax,way,"
+        "waz,"
+        "phase,clipped,refused,lost";
+    for (const char* kind : {",command_", ",applied_"}) {
+      for (const CommandInfo& info : kCommandTable) all += std::string(kind) + info.name;
+    }
+    return all;
+  }();
   return names;
 }
 
@@ -89,6 +117,7 @@ void FlightTable::append(const CommittedStep& step) {
   put(row_, step.force_I);
   putInteger(row_, step.iterations.size());
   put(row_, step.fluid.courant);
+  putGuidance(row_, step);
   endRow(row_);
   file_.write(row_);
 }

@@ -6,6 +6,8 @@
 #include "monarch_flight/coupling/participants.h"
 #include "monarch_flight/fluid/navier_stokes.h"
 #include "monarch_flight/fluid/quasi_steady.h"
+#include "monarch_flight/guidance/flight_controller.h"
+#include "monarch_flight/guidance/replay_guidance.h"
 #include "monarch_flight/run/kept_participant.h"
 #include "monarch_flight/run/wing_speeds.h"
 
@@ -54,7 +56,7 @@ class SinkChain : public StepSink {
 std::unique_ptr<FluidModel> makeFluid(const Case& c) {
   if (c.fluid == FluidKind::kQuasiSteady)
     return makeQuasiSteady(c.insect.planform, c.air, c.blade_element);
-  return makeNavierStokes(c.insect.planform, c.air, c.grid);
+  return makeNavierStokes(c.insect.planform, c.air, c.grid, c.watchdog_s);
 }
 
 CoupledModel makeModel(const Case& c) {
@@ -67,33 +69,54 @@ CoupledModel makeModel(const Case& c) {
   if (!c.coupling.accelerations_known) {
     model.release = static_cast<std::uint32_t>(c.coupling.prescribed_steps) + 1;
   }
-  model.surface_every = c.output.surface_every;
-  model.fields_every = c.output.fields_every;
-  model.vortices_every = c.output.vortices_every;
-  model.q_threshold = vortexThreshold(c);
   return model;
 }
 
-std::unique_ptr<Guidance> makeGuidance(const Case& c) {
-  return std::make_unique<MotionGuidance>(c.motion, c.wind);
+PictureSettings picturesOf(const Case& c) {
+  PictureSettings pictures;
+  pictures.surface_every = c.output.surface_every;
+  pictures.vortices_every = c.output.vortices_every;
+  pictures.flow_every = c.output.fields_every;
+  pictures.q_threshold = vortexThreshold(c);
+  return pictures;
+}
+
+std::unique_ptr<Guidance> makeGuidance(const Case& c, std::shared_ptr<CommandInbox> inbox) {
+  const GuidanceSettings& g = c.guidance;
+  if (g.kind == GuidanceKind::kReplay) return std::make_unique<ReplayGuidance>(c.motion, g.replay);
+  if (g.kind == GuidanceKind::kMotion) {
+    const double frequency = c.time.period > 0.0 ? 1.0 / c.time.period : 0.0;
+    return std::make_unique<MotionGuidance>(c.motion, c.wind, frequency);
+  }
+  std::unique_ptr<CommandSource> source;
+  if (g.controller) source = std::make_unique<FlightController>(*g.controller);
+  if (inbox) source = std::make_unique<PostedCommands>(std::move(inbox));
+  return std::make_unique<WingbeatGuidance>(c.motion, c.wind, g.wingbeat, c.time.t_start,
+                                            std::move(source));
 }
 
 std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
-                                             const std::string& checkpoints) {
+                                             const std::string& checkpoints,
+                                             std::shared_ptr<CommandInbox> inbox) {
   const CoupledModel model = makeModel(c);
   std::unique_ptr<SolverParticipant> solver;
   if (role == Role::kFluid) solver = std::make_unique<FluidParticipant>(model, makeFluid(c));
   if (role == Role::kFlight) solver = std::make_unique<FlightParticipant>(model);
   if (role == Role::kWing) solver = std::make_unique<WingParticipant>(model);
   if (role == Role::kGuidance)
-    solver = std::make_unique<GuidanceParticipant>(model, makeGuidance(c));
-  return std::make_unique<KeptParticipant>(role, std::move(solver), checkpoints);
+    solver = std::make_unique<GuidanceParticipant>(model, makeGuidance(c, std::move(inbox)));
+  // Beside a guidance node, which keeps a part of its own.
+  const bool beside = role == Role::kGuidance && c.guidance.kind == GuidanceKind::kNode;
+  return std::make_unique<KeptParticipant>(beside ? "wingbeat" : roleName(role), std::move(solver),
+                                           checkpoints);
 }
 
 RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& participants,
                   const std::vector<StepSink*>& sinks, RunControl& control, Keeper* keeper) {
   SinkChain chain(sinks);
-  Coordinator coordinator(makeModel(c), c.coupling, participants, run_id);
+  CouplingSettings settings = c.coupling;
+  settings.pictures = picturesOf(c);
+  Coordinator coordinator(makeModel(c), settings, participants, run_id);
   const CoupledOutcome outcome = coordinator.run({&chain}, control, keeper);
   RunResult result;
   result.failure = chain.failure().empty() ? outcome.failure : chain.failure();
@@ -101,8 +124,7 @@ RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& parti
   return result;
 }
 
-InProcessFederation::InProcessFederation(const Case& c, const std::string& checkpoints)
-    : case_(c) {
+InProcessFederation::InProcessFederation(const Case& c, const std::string& checkpoints) : case_(c) {
   for (std::size_t i = 0; i < kRoles; ++i)
     participants_[i] = makeParticipant(static_cast<Role>(i), c, checkpoints);
 }

@@ -117,6 +117,12 @@ RunControl::Order Hold::next(std::uint32_t step, std::uint32_t iteration, const 
   return RunControl::Order::kReset;
 }
 
+void Hold::committed(std::uint32_t step) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  place_.step = step;
+  place_.iteration = 0;
+}
+
 void Hold::end(const std::string& failure) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (place_.ended) return;

@@ -14,21 +14,20 @@ Reply KeptParticipant::exchange(const Request& request) {
   Reply reply;
   reply.key = key;
   reply.interface = request.interface;
-  const std::string part = roleName(role_);
   try {
     if (key.phase == Phase::kCheckpoint) {
       StateRecord record;
       StateWriter writer(record);
       solver_->checkpoint(key, writer);
-      files_.write(key.step, part, record);
+      files_.write(key.step, part_, record);
     } else {
-      const StateRecord record = files_.read(key.step, part);
-      StateReader reader(record, files_.path(key.step) + "/" + part + ".h5");
+      const StateRecord record = files_.read(key.step, part_);
+      StateReader reader(record, files_.path(key.step) + "/" + part_ + ".h5");
       solver_->restore(key, reader);
     }
   } catch (const std::exception& e) {
     reply.error =
-        part + ", step " + std::to_string(key.step) + ", " + phaseName(key.phase) + ": " + e.what();
+        part_ + ", step " + std::to_string(key.step) + ", " + phaseName(key.phase) + ": " + e.what();
   }
   reply.wall_s = secondsSince(begin);
   return reply;

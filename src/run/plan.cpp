@@ -178,8 +178,8 @@ void requireInTime(const RunPlan& plan, double watchdog_s) {
   text << std::setprecision(3) << "watchdog_s = " << watchdog_s << " s: the set-up takes about "
        << timeText(plan.setup_s) << " (START is waited for " << kStartByExchange
        << " times as long as an answer) and the longest answer " << timeText(plan.exchange_s)
-       << ": must be >= " << std::ceil(plan.watchdogNeeded())
-       << "; raise it well above that, or fly with in_process:=true";
+       << ": must be >= " << std::ceil(plan.watchdogNeeded()) << "; raise it well above that"
+       << (plan.ranks > 1 ? "" : ", or fly with in_process:=true");
   throw InputError(text.str());
 }
 
@@ -206,7 +206,7 @@ std::string describe(const RunPlan& p) {
        << "time: set-up " << timeText(p.setup_s) << ", " << p.steps << " steps of "
        << timeText(p.step_s) << " (" << p.evaluations << " evaluations of the air, " << p.ranks
        << (p.ranks == 1 ? " process): " : " processes): ") << timeText(p.run_s())
-       << "; nodes need watchdog_s >= " << p.watchdogNeeded() << "\n";
+       << "; nodes and several processes need watchdog_s >= " << p.watchdogNeeded() << "\n";
   return text.str();
 }
 

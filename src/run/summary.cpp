@@ -5,11 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "monarch_flight/math/seconds_since.h"
+#include "monarch_flight/run/remarks.h"
 
 namespace monarch_flight {
 namespace {
 
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kTumbled = 60.0 / kDegrees;  // pitch of the body [rad]
 
 using Json = nlohmann::ordered_json;
 
@@ -51,8 +53,7 @@ void Range::add(double value) {
 }
 
 Summary::Summary(const Case& c)
-    : name_(c.name),
-      case_sha256_(c.sha256),
+    : case_(c),
       time_(c.time),
       begin_(std::chrono::steady_clock::now()) {}
 
@@ -60,6 +61,9 @@ void Summary::add(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
   theta_B_.add(body.pitch.q);
   theta_R_.add(step.interface.theta_R.q);
+  if (case_.free.pitch && tumbled_ == kNever && std::abs(body.pitch.q) > kTumbled) tumbled_ = step.step;
+  guidance_ = step.guidance;
+  if (guidance_.lost && lost_ == kNever) lost_ = step.step;
   hash_.add(step);
   addTimes(step);
   ignored_ = step.ignored;
@@ -140,6 +144,10 @@ void Summary::memory(StateVisitor& state) {
   state("steps", steps_);
   state("steps_retried", retried_);
   state("whole_flaps", whole_flaps_);
+  state("tumbled", tumbled_);
+  state("guidance_clipped", guidance_.clipped);
+  state("guidance_refused", guidance_.refused);
+  state("guidance_lost_at", lost_);
   state("t_first", t_first_);
   state("t_last", t_last_);
   state("x_first", x_first_);
@@ -175,15 +183,27 @@ void Summary::resume(StateVisitor& state, const Resumption& resumption) {
   resumed_ = all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// Flap of a step, counted from 1; 0 without a period. A flap's last step belongs to it.
+std::uint64_t Summary::flapOf(std::uint32_t step) const {
+  if (!(time_.period > 0.0)) return 0;
+  const double flaps = step * time_.dt / time_.period;
+  return std::max(1L, std::lround(std::ceil(flaps * (1.0 - 1e-9))));
+}
+
 std::string Summary::json(const std::string& failure) const {
   Json j;
   j["status"] = failure.empty() ? "complete" : "failed";
   j["failure"] = failure;
-  j["case"] = name_;
-  j["case_sha256"] = case_sha256_;
+  j["case"] = case_.name;
+  j["case_sha256"] = case_.sha256;
   j["version"] = MONARCH_FLIGHT_VERSION;
   j["steps"] = steps_;
   j["flaps"] = flaps();
+  j["free_steps"] = solved_.count;
+  j["remarks"] = runRemarks(case_, steps_);
+  const bool tumbled = tumbled_ != kNever;
+  j["tumbled_from_step"] = tumbled ? Json(tumbled_) : Json();
+  j["tumbled_from_flap"] = tumbled && flapOf(tumbled_) > 0 ? Json(flapOf(tumbled_)) : Json();
   j["sub_iterations"] = {{"mean", subIterations().mean()}, {"max", std::lround(subIterations().max)}};
   j["retried_steps"] = retried_;
   j["fluid_evaluations"] = {{"mean", evaluations_.mean()}, {"max", std::lround(evaluations_.max)}};
@@ -196,6 +216,12 @@ std::string Summary::json(const std::string& failure) const {
   j["speed_m_s"] = meanVelocity().norm();
   j["theta_B_deg"] = degrees(theta_B_);
   j["theta_R_deg"] = degrees(theta_R_);
+  if (case_.guidance.kind != GuidanceKind::kMotion) {
+    j["guidance"] = {{"type", guidanceName(case_.guidance.kind)},
+                     {"clipped", guidance_.clipped},
+                     {"refused", guidance_.refused},
+                     {"lost_from_flap", lost_ == kNever ? Json(nullptr) : Json(flapOf(lost_))}};
+  }
   j["wall_s"] = {{"total", wallSeconds()},
                  {"fluid", wall_[0]},
                  {"flight", wall_[1]},

@@ -43,6 +43,7 @@ WingSpeeds speedsThrough(const AirAt& air, const Case& c, double duration) {
     const WingMotion wing = relativeTo(air(t, body), rightWingMotion(c.insect, body, state.angles));
     const Eigen::Vector3d& root = wing.v_W;
     peak.root = std::max(peak.root, root.norm());
+    peak.turn = std::max(peak.turn, wing.omega_W.norm());
     for (const Eigen::Vector3d& point : points) {
       peak.outline = std::max(peak.outline, (root + wing.omega_W.cross(point)).norm());
     }
@@ -66,7 +67,8 @@ WingSpeeds peakWingSpeeds(const Case& c) {
   WingSpeeds peak = peakWingSpeeds(c, whole);
   if (c.time.period > 0.0 && c.time.period < whole) {  // many flaps: few samples fall into each
     const WingSpeeds flap = peakWingSpeeds(c, c.time.period);
-    peak = {std::max(peak.root, flap.root), std::max(peak.outline, flap.outline)};
+    peak = {std::max(peak.root, flap.root), std::max(peak.outline, flap.outline),
+            std::max(peak.turn, flap.turn)};
   }
   return peak;
 }

@@ -77,14 +77,18 @@ void printFlight(std::ostream& out, const Flight& flight) {
 
 }  // namespace
 
-int runTrim(TrimCommand command, const std::string& config_dir, std::ostream& out) {
-  for (const char* ending : {"", ".jacobian"}) {
-    const std::string path = command.out + ending;
-    if (!command.out.empty() && std::filesystem::exists(path)) {
-      throw InputError("out:=" + command.out + ": " + path +
+void requireNew(const std::string& out, const std::vector<std::string>& endings) {
+  for (const std::string& ending : endings) {
+    const std::string path = out + ending;
+    if (!out.empty() && std::filesystem::exists(path)) {
+      throw InputError("out:=" + out + ": " + path +
                        " exists already; name another file or move that one away");
     }
   }
+}
+
+int runTrim(TrimCommand command, const std::string& config_dir, std::ostream& out) {
+  requireNew(command.out, {"", ".jacobian"});
   const Case c = loadCase(command.case_name, command.overrides, config_dir);
   TrimOptions& options = command.options;
   if (!command.jacobian_file.empty()) {

@@ -14,7 +14,8 @@ namespace {
 constexpr double kRadians = M_PI / 180.0;
 const char kKnown[] =
     "case, fluid, grid, steps_per_flap, fit, climb, speed, pitch, swing, horizon, start, run_in, "
-    "iterations, tolerance, difference, threads, jacobian, out, fly";
+    "iterations, tolerance, difference, threads, jacobian, out, fly, control, samples, inputs, "
+    "time_constant, orbit, speeds, climbs";
 
 /// All key:=value arguments, with what is wrong in them.
 class Arguments {
@@ -144,6 +145,56 @@ void readStart(Arguments& arguments, TrimOptions& options) {
   options.start = state;
 }
 
+std::vector<double> numberList(Arguments& arguments, const char* key, double low, double high,
+                               double unit) {
+  std::vector<double> values;
+  if (!arguments.has(key)) return values;
+  for (const std::string& part : split(arguments.text(key), ','))
+    values.push_back(unit * arguments.number(key, part, low, high));
+  return values;
+}
+
+std::vector<std::size_t> inputList(Arguments& arguments) {
+  std::vector<std::size_t> inputs;
+  std::string names;
+  for (const CommandInfo& info : kCommandTable)
+    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  for (const std::string& name : split(arguments.text("inputs"), ',')) {
+    std::size_t i = 0;
+    while (i < kCommands && name != kCommandTable[i].name) ++i;
+    const bool again = std::find(inputs.begin(), inputs.end(), i) != inputs.end();
+    if (i == kCommands || again) {
+      arguments.faults.push_back("inputs:=" + name + ": must be different ones of " + names +
+                                 "; as amplitude,deviation_mean");
+    }
+    inputs.push_back(i);
+  }
+  return inputs;
+}
+
+/// Keys of a controller; without control:=true they are faults.
+std::optional<ControlOptions> control(Arguments& arguments) {
+  const std::string wanted = arguments.text("control");
+  if (arguments.has("control") && wanted != "true" && wanted != "false")
+    arguments.faults.push_back("control:=" + wanted + ": must be true or false; correct it");
+  if (wanted != "true") return std::nullopt;
+  ControlOptions options;
+  options.samples = arguments.whole("samples", 1, 1000, options.samples);
+  if (arguments.has("inputs")) options.inputs = inputList(arguments);
+  options.time_constant = arguments.number("time_constant", 1e-3, 10.0, options.time_constant);
+  if (arguments.has("speed")) options.speed = arguments.number("speed", 1e-3, 100.0, 1.0);
+  if (arguments.has("climb"))
+    options.climb = kRadians * arguments.number("climb", -89.0, 89.0, 0.0);
+  options.speeds = numberList(arguments, "speeds", 1e-3, 100.0, 1.0);
+  options.climbs = numberList(arguments, "climbs", -89.0, 89.0, kRadians);
+  for (const char* key : {"fit", "pitch", "swing", "horizon", "start", "run_in", "jacobian"}) {
+    if (arguments.has(key))
+      arguments.faults.push_back(std::string(key) +
+                                 ": is for a trim; leave it out with control:=true");
+  }
+  return options;
+}
+
 }  // namespace
 
 TrimCommand trimCommand(const std::vector<std::string>& given) {
@@ -188,6 +239,12 @@ TrimCommand trimCommand(const std::vector<std::string>& given) {
   command.jacobian_file = arguments.text("jacobian");
   command.out = arguments.text("out");
   command.fly = arguments.whole("fly", 0, 1000, 0);
+  command.control = control(arguments);
+  if (command.control && arguments.has("orbit")) {
+    command.orbit = arguments.text("orbit");
+    if (command.orbit != "own" && command.orbit != "trim")
+      arguments.faults.push_back("orbit:=" + command.orbit + ": must be own or trim; choose one");
+  }
   arguments.finish();
   return command;
 }

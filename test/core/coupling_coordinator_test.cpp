@@ -130,8 +130,8 @@ TEST_F(Coordination, ForceIsThatOfBothWingsInInertialAxes) {
 }
 
 TEST_F(Coordination, StepsComeInOrderAndTheEndOnce) {
-  f_.model.surface_every = 5;
-  f_.model.vortices_every = 10;
+  f_.settings.pictures.surface_every = 5;
+  f_.settings.pictures.vortices_every = 10;
   Federation f(f_.model, f_.settings, monarchAir(1.0));
   ASSERT_TRUE(f.run().complete);
   EXPECT_EQ(f.sink.ends, 1);

@@ -86,8 +86,8 @@ TEST_F(SolverParticipants, AnswersAreTheSolversOwn) {
   Request r = make(Phase::kIterate, 1, 0);
   r.loads = someLoads();
   const CoupledModel& m = f_.model;
-  const Interface start = m.prescribed(m.time(0));
-  const JointAngles angles = m.angles(r.t, r.interface.theta_R);
+  const Interface start = f_.prescribed(m.time(0));
+  const JointAngles angles = r.prescribed.anglesWith(r.interface.theta_R);
   const FlightSolver flight(m.insect, m.gravity, m.free, m.newmark);
   const BodyState body =
       flight.step(start.body, r.interface.body, r.interface.body, angles, r.loads);
@@ -209,7 +209,6 @@ TEST_F(SolverParticipants, MotionThatDoesNotReachIsReported) {
 }
 
 TEST_F(SolverParticipants, FluidTellsOfItselfAtTheStartAndShowsFieldsOnDemand) {
-  f_.model.q_threshold = 5.0;
   auto air = std::make_unique<testing::LinearAir>(testing::monarchAir(1.0));
   FluidParticipant fluid(f_.model, std::move(air));
   const Reply start = fluid.exchange(make(Phase::kStart, 0, 0));
@@ -220,6 +219,7 @@ TEST_F(SolverParticipants, FluidTellsOfItselfAtTheStartAndShowsFieldsOnDemand) {
     ASSERT_EQ(fluid.exchange(make(Phase::kIterate, step, 0)).error, "");
     Request commit = make(Phase::kCommit, step, 0);
     commit.want_fields = wanted;
+    commit.q_threshold = 5.0;
     const Reply reply = fluid.exchange(commit);
     EXPECT_EQ(reply.error, "");
     EXPECT_EQ(reply.surface.facets.size(), wanted ? 1u : 0u);

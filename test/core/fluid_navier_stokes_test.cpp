@@ -171,6 +171,20 @@ TEST_F(FlappingPlate, BadStepsEndWithAReason) {
   EXPECT_THROW(flow_->restore(state), std::invalid_argument);
 }
 
+TEST_F(FlappingPlate, NothingIsLeftToCommitAfterAnEvaluationThatThrew) {
+  advance(2);
+  const std::vector<char> committed = flow_->save();
+  WingMotion bad = next();
+  bad.v_W.x() = std::nan("");
+  const Loads good = flow_->evaluate(next());
+  EXPECT_THROW(flow_->evaluate(bad), NumericalError);
+  EXPECT_THROW(flow_->commit(), std::logic_error);
+  EXPECT_EQ(flow_->evaluate(next()).force(), good.force());
+  EXPECT_NO_THROW(flow_->commit());
+  flow_->restore(committed);
+  EXPECT_EQ(flow_->evaluate(next()).force(), good.force());
+}
+
 TEST(NavierStokes, ACourantNumberAboveTheLimitEndsTheRun) {
   GridSettings s = smallGrid();
   s.courant_limit = 0.01;

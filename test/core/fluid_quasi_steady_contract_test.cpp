@@ -90,5 +90,24 @@ TEST(QuasiSteadyContract, NonFiniteMotionIsANumericalError) {
   EXPECT_THROW(model->evaluate(m), NumericalError);
 }
 
+TEST(QuasiSteadyContract, NothingIsLeftToCommitAfterAnEvaluationThatThrew) {
+  const auto model = makeQuasiSteady(Planform::rectangle(0.02, 0.05, 0.3), air(), kSane);
+  model->start(WingMotion{}, 1e-3);
+  const WingMotion good = translation(1.0, 0.3);
+  WingMotion bad = good;
+  bad.a_W.z() = std::numeric_limits<double>::quiet_NaN();
+  const auto committed = model->save();
+  model->evaluate(good);
+  EXPECT_THROW(model->evaluate(bad), NumericalError);
+  EXPECT_THROW(model->commit(), std::logic_error);
+  model->evaluate(good);
+  LoadOperator jacobian;
+  EXPECT_THROW(model->linearise(bad, jacobian), NumericalError);
+  EXPECT_THROW(model->commit(), std::logic_error);
+  EXPECT_EQ(model->save(), committed);
+  model->evaluate(good);
+  EXPECT_NO_THROW(model->commit());
+}
+
 }  // namespace
 }  // namespace monarch_flight

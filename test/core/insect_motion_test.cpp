@@ -15,6 +15,8 @@
 namespace monarch_flight {
 namespace {
 
+constexpr double kLength = 0.01;  // of what the tables move [m]
+
 template <typename Value>
 Value difference(const std::function<Value(double)>& f, double t, double h) {
   return (45.0 * (f(t + h) - f(t - h)) - 9.0 * (f(t + 2 * h) - f(t - 2 * h)) +
@@ -116,7 +118,7 @@ NumericTable wingTable(int n, double length) {
 
 /// Largest errors of position, velocity, acceleration, attitude, angular velocity and acceleration.
 std::array<double, 6> tumbleErrors(int n) {
-  const TableMotion motion(wingTable(n, 2.0), TableKind::kWing);
+  const TableMotion motion(wingTable(n, 2.0), TableKind::kWing, kLength);
   std::array<double, 6> worst{};
   for (int i = 0; i <= 997; ++i) {
     const double t = 2.0 * i / 997;
@@ -148,7 +150,7 @@ TEST(Table, ErrorsFallWithTheirOrder) {
 }
 
 TEST(Table, DerivativesAreThoseOfTheInterpolatedMotion) {
-  const TableMotion motion(wingTable(21, 2.0), TableKind::kWing);
+  const TableMotion motion(wingTable(21, 2.0), TableKind::kWing, kLength);
   const auto body = [&](double t) { return motion.at(t).body; };
   const double h = 1e-4;
   for (double t = 0.013; t < 1.9; t += 0.0917) {
@@ -183,7 +185,7 @@ NumericTable bodyTable(int n) {
 }
 
 TEST(Table, BodyKindReproducesPolynomialsExactly) {
-  const TableMotion motion(bodyTable(30), TableKind::kBody);
+  const TableMotion motion(bodyTable(30), TableKind::kBody, kLength);
   const PrescribedState s = motion.at(0.1234);
   EXPECT_NEAR(s.body.x.x(), 1.3 * 0.1234, 1e-13);
   EXPECT_NEAR(s.body.v.z(), -0.5, 1e-12);
@@ -201,7 +203,7 @@ TEST(Table, BodyKindReproducesPolynomialsExactly) {
 
 std::string faultOf(const NumericTable& table, TableKind kind) {
   try {
-    TableMotion motion(table, kind);
+    TableMotion motion(table, kind, kLength);
   } catch (const InputError& e) {
     return e.what();
   }

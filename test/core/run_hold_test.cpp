@@ -55,6 +55,7 @@ class Loop {
           break;
         }
         ++evaluations;
+        if (k + 1 == kSubIterations) hold.committed(step);
       }
     }
     hold.end("");
@@ -113,6 +114,18 @@ TEST(Hold, StepsBeyondTheEndReturnWithTheEnd) {
   const RunPlace place = loop.hold.steps(0xffffffffu);
   EXPECT_TRUE(place.ended);
   EXPECT_EQ("", place.failure);
+  EXPECT_EQ(3u, place.step);
+}
+
+TEST(Hold, TheLastStepCountsLikeEveryOther) {
+  Loop loop(true, 50);
+  loop.hold.pause();
+  EXPECT_EQ(49u, loop.hold.steps(49).step);
+  loop.hold.subIterate();  // in the middle of the last one
+  const RunPlace place = loop.hold.steps(1);
+  EXPECT_EQ(50u, place.step);
+  EXPECT_EQ(0u, place.iteration);
+  EXPECT_TRUE(place.ended);
 }
 
 TEST(Hold, AFlyingRunRefusesSingleSteps) {

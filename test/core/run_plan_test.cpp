@@ -151,7 +151,11 @@ TEST(Plan, NodesThatWouldNotWaitLongEnoughAreRefused) {
   plan.setup_s = 2561.0;  // 40000 faces
   const std::string text = refusal([&] { requireInTime(plan, 60.0); });
   EXPECT_NE(std::string::npos, text.find("must be >= 257; raise")) << text;
+  EXPECT_NE(std::string::npos, text.find("in_process:=true")) << text;
   EXPECT_NO_THROW(requireInTime(plan, 257.0));
+  plan.ranks = 2;  // these wait for each other wherever they fly
+  const std::string several = refusal([&] { requireInTime(plan, 60.0); });
+  EXPECT_EQ(std::string::npos, several.find("in_process")) << several;
 }
 
 TEST(Plan, OnlyTheProcessesOfThisMachineCountForItsMemory) {

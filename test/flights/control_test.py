@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 """A person leads a flight: every service and the action fly on one run of real nodes."""
 import os
-import subprocess
 import sys
 import threading
 import unittest
 
 import flying
+import leading
 
 # Long enough that a goal is cancelled before the run is over.
 KEYS = ("case:=climb_trimmed", "fluid:=quasi_steady", "flaps:=4", "steps_per_flap:=500")
@@ -32,35 +32,7 @@ class Listener:
                              queue_size=1000)]
 
 
-class Control(flying.FlightTest):
-    def setUp(self):
-        super().setUp()
-        environment = self.environment(ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost",
-                                       PATH="/usr/bin:" + os.environ["PATH"])
-        core = subprocess.Popen(["roscore", "-p", self.master.rsplit(":", 1)[1]],
-                                stdout=subprocess.DEVNULL, env=environment)
-        self.addCleanup(self.end, core)
-        self.wait_for(lambda: subprocess.call(
-            [os.path.join(flying.ROOT, "scripts", "master"), "answers", self.master]) == 0,
-            30, "roscore")
-        os.environ.update(ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")
-        # On wall time: a held run's clock stands still.
-        import rospy
-        rospy.init_node("person", disable_signals=True)
-
-    def call(self, name, *arguments):
-        import rospy
-        from monarch_flight.srv import FlySteps
-        from std_srvs.srv import Trigger
-        service = "/monarch_flight/" + name
-        rospy.wait_for_service(service, 60)
-        return rospy.ServiceProxy(service, FlySteps if name == "step" else Trigger)(*arguments)
-
-    def good(self, name, *arguments):
-        answer = self.call(name, *arguments)
-        self.assertTrue(answer.success, answer.message)
-        return answer.message
-
+class Control(leading.Leader):
     def test_every_service_and_the_action(self):
         process = self.start(*KEYS, "paused:=true", "out:=" + self.out(),
                              ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")

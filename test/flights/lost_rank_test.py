@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A lost process of the fluid (ranks:=2) ends the run: soon, with a message, and with a non-zero exit code."""
+"""A process of the fluid (ranks:=2) that is lost or hangs ends the run: soon, by name, with a non-zero exit code."""
 import glob
 import os
 import signal
@@ -8,6 +8,9 @@ import unittest
 import flying
 
 LIMIT = 60.0  # seconds
+WATCHDOG = 10.0  # seconds
+# The coordinator leaves when the fluid is lost, and may be gone before mpirun is.
+NODE_DIED = "fly: the node monarch_flight/(fluid|coordinator) died"
 
 
 def processes_of(folder, program):
@@ -45,7 +48,7 @@ class LostRank(flying.FlightTest):
         case = os.path.join(self.folder, "small.yaml")
         head, rest = text.split("\ngrid:\n")
         with open(case, "w") as f:  # a grid that two processes fly in no time
-            f.write(head + "\ngrid:\n  cells_per_chord: 6\n  far_field: 3\n" + rest)
+            f.write(head + "\ngrid:\n  cells_per_chord: 6\n  far_field: 3\n" + rest + "\nwatchdog_s: %g\n" % WATCHDOG)
         process = self.start("case:=" + case, "flaps:=100", "ranks:=2", "out:=" + self.out(), *keys)
         table = os.path.join(self.out(), "flight.csv.active")
         self.wait_for(lambda: os.path.exists(table) and os.path.getsize(table) > 5000, 120,
@@ -63,7 +66,7 @@ class LostRank(flying.FlightTest):
         os.kill(ranks[1], signal.SIGKILL)
         code, output = self.finish(process, LIMIT)
         self.assertNotIn(code, (0, 130), output)
-        self.assertIn("fly: the node monarch_flight/fluid died", output)
+        self.assertRegex(output, NODE_DIED)
         summary = flying.summary(self.out())
         self.assertEqual(summary["status"], "failed")
         self.assertIn("the fluid node", summary["failure"])
@@ -79,6 +82,26 @@ class LostRank(flying.FlightTest):
         self.assertIn("fly: a process was lost, which ended the run", output)
         self.assertFalse(os.path.exists(self.out() + "/summary.json"))
         self.assert_all_gone(ranks)
+
+    def hang(self, program, rank, *keys):
+        """Output of a run of which this process is stopped; the other one must say so."""
+        process, ranks = self.airborne(program, *keys)
+        os.kill(ranks[rank], signal.SIGSTOP)
+        code, output = self.finish(process, LIMIT)
+        self.assertNotIn(code, (0, 130), output)
+        self.assertIn("process %d of the flow has waited in vain for process %d, which hangs" % (1 - rank, rank), output)
+        self.assert_all_gone(ranks)
+        return output
+
+    def test_hung_in_nodes(self):
+        self.assertRegex(self.hang("fluid", 1), NODE_DIED)
+        self.assertIn("the fluid node", flying.summary(self.out())["failure"])
+
+    def test_hung_in_process(self):
+        self.hang("fly_in_process", 1, "in_process:=true")
+
+    def test_hung_head_in_process(self):
+        self.hang("fly_in_process", 0, "in_process:=true")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,11 @@ import flying
 COLUMNS = (
     "t x y z vx vy vz ax ay az theta_B theta_B_dot theta_B_ddot qw qx qy qz phi psi theta_R "
     "theta_R_dot theta_R_ddot theta_A fx fy fz mx my mz fx_p fy_p fz_p mx_p my_p mz_p FX FY FZ "
-    "sub_iterations courant").split()
+    "sub_iterations courant phi_dot phi_ddot psi_dot psi_ddot theta_A_dot theta_A_ddot rest_angle "
+    "wx wy wz wax way waz phase clipped refused lost").split()
+COMMANDS = ("amplitude flapping_mean frequency deviation_mean rest_angle abdomen_mean "
+            "abdomen_amplitude").split()
+COLUMNS += [kind + name for kind in ("command_", "applied_") for name in COMMANDS]
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/joint_states", "/diagnostics", "/monarch_flight/case",
     "/monarch_flight/state", "/monarch_flight/odom", "/monarch_flight/path",
@@ -28,7 +32,7 @@ class SameState(flying.FlightTest):
     """One flight for all: the second is compared with the first."""
 
     def climb(self, name, *keys):
-        code, output = self.fly("case:=climb", "fluid:=quasi_steady", "flaps:=1",
+        code, output = self.fly("case:=climb_printed", "fluid:=quasi_steady", "flaps:=1",
                                 "steps_per_flap:=%d" % STEPS, "out:=" + self.out(name), *keys)
         self.assertEqual(code, 0, output)
         return output
@@ -74,7 +78,7 @@ class SameState(flying.FlightTest):
         self.assertEqual((s["steps"], s["flaps"], s["retried_steps"]), (STEPS, 1.0, 0))
         self.assertGreater(s["sub_iterations"]["mean"], 1)
         self.assertLessEqual(s["sub_iterations"]["mean"], s["sub_iterations"]["max"])
-        self.assertEqual(set(s["wall_s"]), {"total", "fluid", "flight", "wing", "exchange", "coupling", "outputs"})
+        self.assertEqual(set(s["wall_s"]), {"total", "fluid", "flight", "wing", "guidance", "exchange", "coupling", "outputs"})
         self.assertEqual([len(row) for row in s["added_mass"]], [6] * 6)
 
     def check_flight(self, folder):
@@ -95,6 +99,21 @@ class SameState(flying.FlightTest):
                 self.assertAlmostEqual(flight[v][n + 1], flight[v][n] + step, delta=1e-9)
             self.assertAlmostEqual(
                 sum(flight[q][n] ** 2 for q in ("qw", "qx", "qy", "qz")), 1.0, delta=1e-12)
+        self.check_guidance(flight, dt)
+
+    def check_guidance(self, flight, dt):
+        """Nobody leads: the motion itself, in still air."""
+        for name in COLUMNS[COLUMNS.index("rest_angle"):]:
+            if name != "phase":
+                self.assertEqual(set(flight[name]), {0.0}, name)
+        for n in range(STEPS):
+            self.assertAlmostEqual(flight["phase"][n], n / STEPS, delta=1e-12)
+            for angle, bound in (("phi", 2e-5), ("psi", 2e-5), ("theta_A", 2e-5)):
+                change = 0.5 * dt * (flight[angle + "_dot"][n] + flight[angle + "_dot"][n + 1])
+                self.assertAlmostEqual(flight[angle][n + 1], flight[angle][n] + change, delta=bound)
+                change = 0.5 * dt * (flight[angle + "_ddot"][n] + flight[angle + "_ddot"][n + 1])
+                self.assertAlmostEqual(flight[angle + "_dot"][n + 1],
+                                       flight[angle + "_dot"][n] + change, delta=1e3 * bound)
 
     def check_iterations(self, folder):
         columns, rows = flying.table(folder, "iterations.csv")

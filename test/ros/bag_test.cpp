@@ -26,13 +26,13 @@ class Bag : public testing::Test {
   static void SetUpTestSuite() {
     folder = new TemporaryFolder();
     Process flight(std::string(NODE_DIR) + "/fly_in_process",
-                   {"case:=climb", "fluid:=quasi_steady", "steps_per_flap:=240", "flaps:=0.5",
+                   {"case:=climb_printed", "fluid:=quasi_steady", "steps_per_flap:=240", "flaps:=0.5",
                     "out:=" + (*folder / "run")},
                    *folder / "flight.log");
     ASSERT_EQ(0, flight.wait(60.0)) << flight.output();
     ASSERT_FALSE(exists(*folder / "run/flight.bag.active"));
     bag = new rosbag::Bag(*folder / "run/flight.bag");
-    insect = new Case(loadCase("climb", {{"steps_per_flap", "240"}}, CONFIG_DIR));
+    insect = new Case(loadCase("climb_printed", {{"steps_per_flap", "240"}}, CONFIG_DIR));
   }
   static void TearDownTestSuite() {
     delete bag;
@@ -245,7 +245,7 @@ TEST(PublishedWind, IsTheCommittedOneInEastNorthUp) {
 }
 
 TEST(LongPath, StaysBoundedAndKeepsItsBeginning) {
-  Case c = loadCase("climb", {{"fluid", "quasi_steady"}, {"steps_per_flap", "320"}}, CONFIG_DIR);
+  Case c = loadCase("climb_printed", {{"fluid", "quasi_steady"}, {"steps_per_flap", "320"}}, CONFIG_DIR);
   FlightMessages messages(c);
   std::size_t poses = 0, published = 0, bytes = 0;
   for (std::uint32_t step = 0; step <= 320 * 100; ++step) {
@@ -277,7 +277,7 @@ TEST(FullDisk, LeavesTheBagUnderItsActiveName) {
   signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &small);
   Process flight(std::string(NODE_DIR) + "/fly_in_process",
-                 {"case:=climb", "fluid:=quasi_steady", "flaps:=20", "out:=" + (folder / "run")},
+                 {"case:=climb_printed", "fluid:=quasi_steady", "flaps:=20", "out:=" + (folder / "run")},
                  folder / "flight.log");
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(1, flight.wait(30.0));

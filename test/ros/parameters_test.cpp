@@ -65,7 +65,7 @@ TEST(RunParameters, EveryFaultIsNamedAtOnce) {
 TEST(RunParameters, NothingSetMeansTheShippedFlight) {
   XmlRpc::XmlRpcValue none;
   const RunParameters p = runParameters(none, "/monarch_flight/");
-  EXPECT_EQ("climb", p.name);
+  EXPECT_EQ("climb_controlled", p.name);
   EXPECT_TRUE(p.overrides.empty());
   EXPECT_EQ(0.0, p.watchdog_s);
 }
@@ -103,6 +103,16 @@ TEST(RunParameters, BrokenCommandLinesAreReadOrRefused) {
     }
   }
   EXPECT_GT(refused, 1000);
+}
+
+TEST(PlannedRun, NodesAndSeveralProcessesMustWaitLongEnough) {
+  RunParameters p = runParameters({{"case", "tethered_fwuav"}, {"grid", "preview"}}, "");
+  Case c = loadCase(p);
+  c.watchdog_s = 1e-6;
+  EXPECT_NO_THROW(plannedRun(p, c, false));
+  EXPECT_THROW(plannedRun(p, c, true), InputError);
+  p.ranks = 2;
+  EXPECT_THROW(plannedRun(p, c, false), InputError);
 }
 
 TEST(OutputDirectory, StartsWhereTheRunWasCalled) {

@@ -38,15 +38,19 @@ class Guidance {
 /// A motion that is a function of time, in a wind: nothing to remember.
 class MotionGuidance : public Guidance {
  public:
+  /// `frequency`: of the motion [Hz], for the phase in the report; 0: none.
   explicit MotionGuidance(std::shared_ptr<const PrescribedMotion> motion,
-                          std::shared_ptr<const WindModel> wind = std::make_shared<SteadyWind>())
-      : motion_(std::move(motion)), wind_(std::move(wind)) {}
+                          std::shared_ptr<const WindModel> wind = std::make_shared<SteadyWind>(),
+                          double frequency = 0.0)
+      : motion_(std::move(motion)), wind_(std::move(wind)), frequency_(frequency) {}
   PrescribedState start(double t) override;
   PrescribedState next(const GuidanceInput& input) override;
+  GuidanceReport report() const override;
 
  private:
   std::shared_ptr<const PrescribedMotion> motion_;
   std::shared_ptr<const WindModel> wind_;
+  double frequency_, t_ = 0.0;
 };
 
 /// The wind that the body meets at level n+1, its place there by extrapolation from level n.

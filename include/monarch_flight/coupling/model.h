@@ -22,11 +22,6 @@ struct CoupledModel {
   /// First free step, which a released insect flies at constant acceleration: what the prescribed
   /// motion did before does not belong to its flight. 0: the motion's accelerations do.
   std::uint32_t release = 0;
-  int surface_every = 0;     ///< committed steps between pictures of the wing's pressure (0: never)
-  int fields_every = 0;      ///< committed steps between answers with the whole flow (0: never)
-  int vortices_every = 0;    ///< committed steps between pictures of the vortices (0: never)
-  double q_threshold = 0.0;  ///< vortices are where Q exceeds it [1/s^2]
-  int vortex_limit = 20000;  ///< points at most in a picture of vortices
 
   double time(std::uint32_t step) const { return t_start + step * newmark.dt; }
   /// Level n as Newmark leaves it for `step`, level n+1: in the release step with the accelerations

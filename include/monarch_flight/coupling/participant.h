@@ -58,6 +58,8 @@ struct Request {
   bool want_operator = false;  ///< ITERATE to the fluid: answer with the loads' Jacobian too
   bool want_flow = false;    ///< COMMIT to the fluid: answer with the whole flow
   bool want_fields = false;  ///< COMMIT to the fluid: answer with surface pressure and vortices
+  double q_threshold = 0.0;  ///< of these vortices [1/s^2]
+  int vortex_limit = 0;      ///< points at most
 };
 
 struct Reply {

@@ -15,6 +15,15 @@ namespace monarch_flight {
 /// Strategies of the sub-iterations: docs/coupling.md.
 enum class Relaxation { kConstant, kAitken, kIqnIls, kAddedMass };
 
+/// Which pictures of the flow are asked for when a step is committed.
+struct PictureSettings {
+  int surface_every = 0;     ///< steps between pictures of the wing's pressure (0: never)
+  int vortices_every = 0;    ///< steps between pictures of the vortices (0: never)
+  int flow_every = 0;        ///< steps between answers with the whole flow (0: never)
+  double q_threshold = 0.0;  ///< vortices are where Q exceeds it [1/s^2]
+  int vortex_limit = 20000;  ///< points at most in a picture of vortices
+};
+
 struct CouplingSettings {
   Relaxation relaxation = Relaxation::kAddedMass;
   double omega_initial = 0.5;     ///< first (or constant) relaxation factor, (0, 1]
@@ -30,6 +39,7 @@ struct CouplingSettings {
   /// Whether the motion's accelerations after them satisfy the equations of motion (CoupledModel::release).
   bool accelerations_known = false;
   double length_scale = 1.0;      ///< mean chord, makes displacements dimensionless [m]
+  PictureSettings pictures;
   std::vector<std::string> problems() const;
 };
 

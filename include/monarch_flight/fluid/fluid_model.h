@@ -67,7 +67,7 @@ class FluidModel {
   /// Evaluations that the Jacobian costs on top of that; 0: as good as nothing.
   virtual int operatorCost() const = 0;
   /// Makes the last evaluated step the committed state. Throws std::logic_error when nothing was
-  /// evaluated since the last commit.
+  /// evaluated since the last commit, or the last evaluation threw.
   virtual void commit() = 0;
   /// Exact state as bytes and back; bitwise the same evaluations follow. Throws
   /// std::invalid_argument for the state of another wing, grid or number of processes.

@@ -22,7 +22,7 @@ struct NumericTable {
 /// Reads a CSV file: one header line of names, then rows of numbers; blank lines and lines that
 /// begin with '#' are skipped. Throws InputError naming file, row (1 is the first row of numbers),
 /// line and column of every cell that is not a finite number, up to ten, and of every row of the
-/// wrong length.
+/// wrong length; columns that are separated by semicolons, tabs or blanks are named as such.
 NumericTable readCsv(std::istream& in, const std::string& name);
 NumericTable readCsv(const std::string& path);
 

@@ -22,13 +22,16 @@ enum class TableKind {
 /// Motion by a table of samples. Positions and angles are quintic splines (C4); attitudes are the
 /// normalised quintic spline of the quaternion's components with continuous signs, differentiated
 /// exactly: velocity and acceleration are the derivatives of the position and attitude given.
+/// Angles are continuous, too: from row to row the shorter way round (at most pi).
 class TableMotion : public PrescribedMotion {
  public:
   /// `table` must hold the columns of `kind`, further ones are ignored. Throws InputError naming
   /// table, row and column of every fault: fewer than 6 rows, time that does not increase, a gap (a
   /// spacing above 1.5 times the median), quaternions off unit length by more than 1e-4, turns of
-  /// more than 90 degrees from row to row.
-  TableMotion(const NumericTable& table, TableKind kind);
+  /// more than 90 degrees from row to row, changes from row to row that those around them do not
+  /// lead to (docs/case_files.md, motion). `length` [m]: changes of position below a hundredth of
+  /// it, and of angles below 0.01 rad, are taken for rounding.
+  TableMotion(const NumericTable& table, TableKind kind, double length);
   ~TableMotion() override;
   PrescribedState at(double t) const override;
 

@@ -1,15 +1,19 @@
 #pragma once
+#include <monarch_flight/WingbeatCommand.h>
 #include <ros/ros.h>
 
-#include <array>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "monarch_flight/guidance/command_inbox.h"
 #include "monarch_flight/ros_io/lockstep_client.h"
 #include "monarch_flight/ros_io/run_parameters.h"
 
 namespace monarch_flight {
 
-/// The node that leads a run: greets the three solver nodes, couples them, publishes and records.
+/// The node that leads a run: greets the solver nodes, and the guidance node where the case has
+/// one, couples them, publishes and records.
 class CoordinatorNode {
  public:
   /// Reads and checks the parameters of /monarch_flight. Throws InputError.
@@ -21,6 +25,8 @@ class CoordinatorNode {
  private:
   int fly();
   void keepAlive();
+  std::unique_ptr<Participant> makeGuidance(const std::string& checkpoints);
+  void onCommand(const WingbeatCommandConstPtr& command);
   void dismiss() noexcept;
   void reportIgnored() const;
 
@@ -29,7 +35,10 @@ class CoordinatorNode {
   Case case_;
   ros::NodeHandle node_;
   LockstepRun run_;
-  std::array<std::unique_ptr<RosParticipant>, 3> solvers_;  // by role
+  std::vector<std::unique_ptr<RosParticipant>> nodes_;  // by role; the last one only of kNode
+  std::shared_ptr<CommandInbox> inbox_;                 // of kCommands and kNode
+  std::unique_ptr<Participant> own_;  // guidance in this process, behind that of a node
+  ros::Subscriber commands_;
 };
 
 }  // namespace monarch_flight

@@ -1,9 +1,12 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <string>
 
+#include "monarch_flight/coupling/guidance.h"
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/stop_flag.h"
+#include "monarch_flight/run/case.h"
 
 namespace monarch_flight {
 
@@ -19,6 +22,10 @@ int coordinatorMain(int argc, char** argv);
 int participantMain(Role role, int argc, char** argv);
 /// participantMain of the fluid on the processes that mpirun started; process 0 speaks ROS.
 int fluidMain(int argc, char** argv);
+/// Main of a guidance node of one's own (docs/guidance.md): serves one run with what `make` returns
+/// for the run's case.
+int guidanceMain(int argc, char** argv,
+                 const std::function<std::unique_ptr<Guidance>(const Case&)>& make);
 /// The same flight without a master: key:=value arguments.
 int inProcessMain(int argc, char** argv);
 /// Prints the URDF of a case's insect and writes its meshes: case:=<name or path>, out:=<folder>

@@ -13,7 +13,7 @@ namespace monarch_flight {
 /// What a person may set for a run, on the command line (key:=value) or as ROS parameters of the
 /// namespace /monarch_flight; an empty text means not given.
 struct RunParameters {
-  std::string name = "climb";  ///< `case`: name or path of the case file
+  std::string name = "climb_controlled";  ///< `case`: name or path of the case file
   std::string out;             ///< folder of the results; empty: flights/<case>-<time>
   std::string resume;          ///< folder of a run to go on with; empty: a new run
   std::string directory;       ///< where relative paths start; empty: the working directory
@@ -45,9 +45,9 @@ Case loadCase(const RunParameters& parameters);
 /// Throws InputError unless mpirun started as many processes as `ranks` says (1: without mpirun)
 /// and the fluid of the case can use them. For the program that holds the fluid.
 void requireProcesses(const RunParameters& parameters, const Case& c);
-/// What the run means (RunPlan), for people; with Navier-Stokes air on this machine. `nodes`: the
-/// fluid is one, whose answers are waited for no longer than the watchdog. Throws InputError when
-/// that cannot be.
+/// What the run means (RunPlan), for people; with Navier-Stokes air on this machine. Nodes (`nodes`:
+/// the fluid is one) and processes of the flow wait for each other no longer than the watchdog.
+/// Throws InputError when that cannot be.
 std::string plannedRun(const RunParameters& parameters, const Case& c, bool nodes);
 /// Where the run writes: absolute path.
 std::string outputDirectory(const RunParameters& parameters, const Case& c);

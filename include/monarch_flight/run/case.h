@@ -12,6 +12,7 @@
 #include "monarch_flight/insect/insect.h"
 #include "monarch_flight/insect/prescribed_motion.h"
 #include "monarch_flight/insect/wind_model.h"
+#include "monarch_flight/run/guidance_settings.h"
 
 namespace monarch_flight {
 
@@ -22,7 +23,8 @@ struct TimeGrid {
   double period = 0.0;           ///< flapping period, or 0 for a motion without one [s]
   double t_start = 0.0;          ///< time of step 0 [s]
   double dt = 0.0;               ///< [s]
-  std::uint32_t steps = 0;       ///< steps of the whole run
+  std::uint32_t steps = 0;       ///< whole steps of the whole run
+  double remainder = 0.0;        ///< steps that the length asked for has more, below 1; not flown
   double time(std::uint32_t step) const { return t_start + step * dt; }
   /// Steps per flap, or 0 without a period.
   double stepsPerFlap() const { return period > 0 ? period / dt : 0.0; }
@@ -49,6 +51,7 @@ struct Case {
   /// Motion of everything that is prescribed, and of the free coordinates during the prescribed start
   /// (explicit initial values of free coordinates are already in it: q0 + qd0 t).
   std::shared_ptr<const PrescribedMotion> motion;
+  GuidanceSettings guidance;     ///< who prescribes it, step by step
   FreeCoordinates free;
   TimeGrid time;
   CouplingSettings coupling;
@@ -58,8 +61,8 @@ struct Case {
   std::string sha256;            ///< of resolved_yaml, hex: what the handshake compares
 };
 
-/// `overrides` from the command line: fluid, grid, flaps, steps_per_flap, record, fields_every,
-/// checkpoint_every (each a YAML scalar).
+/// `overrides` from the command line: fluid, grid, guidance, guidance_file, flaps, steps_per_flap,
+/// record, fields_every, checkpoint_every (each a YAML scalar).
 using CaseOverrides = std::map<std::string, std::string>;
 
 /// Reads a case by name (config/cases/<name>.yaml under `config_dir`) or by path; applies overrides;

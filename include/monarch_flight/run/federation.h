@@ -9,20 +9,25 @@
 #include "monarch_flight/coupling/model.h"
 #include "monarch_flight/coupling/participant.h"
 #include "monarch_flight/coupling/run_control.h"
+#include "monarch_flight/guidance/command_inbox.h"
 #include "monarch_flight/run/case.h"
 
 namespace monarch_flight {
 
 /// The flow model that the case names, started by the participant's START request.
 std::unique_ptr<FluidModel> makeFluid(const Case& c);
-/// What owns the motion of the case.
-std::unique_ptr<Guidance> makeGuidance(const Case& c);
+/// What owns the motion of the case. `inbox`: where the commands of a person or a node arrive.
+std::unique_ptr<Guidance> makeGuidance(const Case& c,
+                                       std::shared_ptr<CommandInbox> inbox = nullptr);
+/// The pictures that the case asks for.
+PictureSettings picturesOf(const Case& c);
 /// What coordinator and participants need to know of the case.
 CoupledModel makeModel(const Case& c);
 /// The in-process participant for a role; the ROS nodes wrap exactly these. `checkpoints`: folder in
-/// which it keeps its part of them.
+/// which it keeps its part of them; `inbox`: as above, for guidance.
 std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
-                                             const std::string& checkpoints);
+                                             const std::string& checkpoints,
+                                             std::shared_ptr<CommandInbox> inbox = nullptr);
 
 /// Result of a run as written to summary.json.
 struct RunResult {

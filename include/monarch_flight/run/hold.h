@@ -52,6 +52,8 @@ class Hold {
   /// held, and should wait a moment.
   RunControl::Order next(std::uint32_t step, std::uint32_t iteration, const StopFlag& stop,
                          const std::function<void(const RunPlace&)>& idle);
+  /// A step is committed; the place is behind it even if next() is never asked again.
+  void committed(std::uint32_t step);
   /// The run is over; only the first call counts.
   void end(const std::string& failure);
 

@@ -11,13 +11,14 @@ namespace monarch_flight {
 /// takes it up again. In one process and in a node alike.
 class KeptParticipant : public Participant {
  public:
-  /// `folder`: of the run's checkpoints; never taken from a message.
-  KeptParticipant(Role role, std::unique_ptr<SolverParticipant> solver, const std::string& folder)
-      : role_(role), solver_(std::move(solver)), files_(folder) {}
+  /// `part`: name of its part. `folder`: of the run's checkpoints; never taken from a message.
+  KeptParticipant(const std::string& part, std::unique_ptr<SolverParticipant> solver,
+                  const std::string& folder)
+      : part_(part), solver_(std::move(solver)), files_(folder) {}
   Reply exchange(const Request& request) override;
 
  private:
-  Role role_;
+  std::string part_;
   std::unique_ptr<SolverParticipant> solver_;
   CheckpointFiles files_;
 };

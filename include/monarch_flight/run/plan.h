@@ -28,7 +28,7 @@ struct RunPlan {
   double setup_s = 0.0, step_s = 0.0;  ///< expected wall time [s]
   double exchange_s = 0.0;             ///< the longest answer to a node that waits, START apart [s]
   double run_s() const { return setup_s + steps * step_s; }
-  /// Least watchdog_s with which the nodes wait long enough for these times [s].
+  /// Least watchdog_s with which nodes and processes wait long enough for these times [s].
   double watchdogNeeded() const;
 };
 
@@ -39,7 +39,7 @@ RunPlan planRun(const Case& c, int ranks, int here = 0);
 /// Throws InputError when the machine cannot hold the run, or the grid misses the wing
 /// (docs/case_files.md, grid).
 void requirePossible(const RunPlan& plan);
-/// Throws InputError when nodes that wait so long [s] would give the fluid up.
+/// Throws InputError when nodes, or processes of the flow, that wait so long [s] would give up.
 void requireInTime(const RunPlan& plan, double watchdog_s);
 
 /// Some lines for people.

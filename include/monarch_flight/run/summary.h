@@ -2,7 +2,9 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "monarch_flight/run/case.h"
 #include "monarch_flight/run/checkpoints.h"
@@ -23,7 +25,8 @@ struct Range {
 /// Climb angle and speed: of the mean velocity from level 0 over all whole flaps flown
 /// (displacement over time); over the whole run while less than a flap is flown or the motion has
 /// no period. The angle is atan2(up, horizontal). Sub-iterations: of the solved steps; of all steps
-/// where none was solved.
+/// where none was solved. Tumbled: a free pitch of the body was beyond 60 deg, first in this step;
+/// its flap is counted from 1 at the start of the run.
 class Summary {
  public:
   explicit Summary(const Case& c);
@@ -41,11 +44,17 @@ class Summary {
   void addTimes(const CommittedStep& step);
   double climbAngleDegrees() const;
   const Range& subIterations() const;
+  std::uint64_t flapOf(std::uint32_t step) const;
   double flaps() const;
   double wallSeconds() const;
 
-  std::string name_, case_sha256_;
+  static constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
+
+  Case case_;
   TimeGrid time_;
+  std::uint32_t tumbled_ = kNever;  // step
+  GuidanceReport guidance_;         // of the last step
+  std::uint32_t lost_ = kNever;     // step at which the controller gave up
   std::chrono::steady_clock::time_point begin_;
   std::uint32_t steps_ = 0;
   std::uint64_t whole_flaps_ = 0;

@@ -3,11 +3,12 @@
 
 namespace monarch_flight {
 
-/// Largest speeds of the right wing through the air that the prescribed motion reaches [m/s],
+/// Largest speeds of the right wing through the air that the prescribed motion reaches,
 /// whenever a gust is met: never less than in any air that the wind's range holds (wind_model.h).
 struct WingSpeeds {
-  double root = 0.0;     ///< of the wing's root, the origin of its axes
-  double outline = 0.0;  ///< of the fastest point of its outline: no point of the wing is faster
+  double root = 0.0;     ///< of the wing's root, the origin of its axes [m/s]
+  double outline = 0.0;  ///< of the fastest point of its outline: no point is faster [m/s]
+  double turn = 0.0;     ///< angular velocity of the wing [rad/s]
 };
 
 /// Over `duration` [s] from the start of the run, at up to 2001 instants evenly apart.

@@ -177,6 +177,7 @@ Loads BladeElement::linearise(const WingMotion& next, LoadOperator& jacobian) {
 }
 
 Loads BladeElement::loadsOf(const WingMotion& motion) {
+  evaluated_ = false;  // until it is done: what throws leaves nothing to commit
   const RelativeMotion m = relativeMotion(motion);
   Loads loads;
   for (std::size_t i = 0; i < strips_.size(); ++i) {

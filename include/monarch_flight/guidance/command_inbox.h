@@ -1,0 +1,40 @@
+#pragma once
+#include <memory>
+#include <mutex>
+
+#include "monarch_flight/guidance/command_source.h"
+
+namespace monarch_flight {
+
+/// Where commands wait for the run: the newest one counts. Any thread may post.
+class CommandInbox {
+ public:
+  struct Posted {
+    WingbeatChange change;
+    bool at_once = false;  ///< in the next step; else when the next flap begins
+  };
+  void post(const WingbeatChange& change, bool at_once);
+  /// What was posted since the last call, and empties the box.
+  std::optional<Posted> take();
+
+ private:
+  std::mutex mutex_;
+  std::optional<Posted> newest_;
+};
+
+/// Leads the wingbeat by what arrives in an inbox: a person's commands, or a node's.
+class PostedCommands : public CommandSource {
+ public:
+  explicit PostedCommands(std::shared_ptr<CommandInbox> inbox) : inbox_(std::move(inbox)) {}
+  void start() override;
+  std::optional<WingbeatChange> next(const WingbeatLevel& level) override;
+  void memory(StateVisitor& state) override;
+
+ private:
+  std::shared_ptr<CommandInbox> inbox_;
+  bool waiting_ = false;
+  CommandInbox::Posted posted_;  // when waiting_
+  double flap_ = 0.0;            // of the last level; below that of any level before the first
+};
+
+}  // namespace monarch_flight

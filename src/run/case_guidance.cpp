@@ -1,0 +1,159 @@
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "monarch_flight/guidance/replay_guidance.h"
+#include "monarch_flight/math/errors.h"
+#include "run/case_controller.h"
+#include "run/case_parts.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr GuidanceKind kKinds[] = {GuidanceKind::kMotion, GuidanceKind::kCommands,
+                                   GuidanceKind::kController, GuidanceKind::kNode,
+                                   GuidanceKind::kReplay};
+
+std::vector<std::string> kindNames() {
+  std::vector<std::string> names;
+  for (GuidanceKind kind : kKinds) names.push_back(guidanceName(kind));
+  return names;
+}
+
+std::string unitOf(const CommandInfo& info) { return info.unit; }
+
+/// Bounds of every command, and the largest change over a flap.
+void readLimits(Section& section, double period, WingbeatSettings& settings) {
+  Section limits = section.section("limits");
+  Section rates = section.section("rates");
+  for (std::size_t i = 0; i < kCommands; ++i) {
+    const CommandInfo& info = kCommandTable[i];
+    const std::vector<double> range = limits.numbers(info.name, unitOf(info));
+    if (range.size() == 2) {
+      settings.limits[i].low = range[0];
+      settings.limits[i].high = range[1];
+    } else if (limits.has(info.name) && limits.clean()) {
+      limits.fault(info.name, " has " + std::to_string(range.size()) +
+                                  " values: must be 2, the lowest and the highest command");
+    }
+    settings.limits[i].rate =
+        rates.number(info.name, {Bound::kPositive, unitOf(info) + " a flap", "1 is usual"}) /
+        period;
+  }
+  limits.finish();
+  rates.finish();
+}
+
+/// The rows of a flight.csv, from `file` or written out; the resolved case holds the rows.
+std::shared_ptr<const NumericTable> readReplay(Section& section) {
+  const std::vector<std::string>& columns = ReplayGuidance::columns();
+  if (!section.has("file")) {
+    return std::make_shared<NumericTable>(
+        NumericTable{section.pathOf("rows"), columns, section.rows("rows", columns.size())});
+  }
+  const YAML::Node file = section.take("file");
+  if (!file.IsScalar() || section.has("rows")) {
+    section.take("rows");
+    section.fault("file", ": give either the path of a flight.csv or rows");
+    return nullptr;
+  }
+  const NumericTable table = readCsv(file.Scalar()).select(columns);
+  section.put("rows", table.rows);
+  return std::make_shared<NumericTable>(table);
+}
+
+/// The law, whose gains belong to the filters that it was made with.
+std::optional<ControllerSettings> readLaw(Section& section, double time_constant, const Case& c,
+                                          Faults& faults) {
+  auto law = readController(section.section("controller"), c, faults);
+  if (law && std::abs(law->time_constant - time_constant) > 1e-6 * time_constant) {
+    section.fault("time_constant", " = " + exactText(time_constant) + " flaps: must be " +
+                                       exactText(law->time_constant) +
+                                       ", for which the controller's gains were made; or make "
+                                       "others (scripts/trim control:=true time_constant:=...)");
+  }
+  return law;
+}
+
+}  // namespace
+
+const char* guidanceName(GuidanceKind kind) {
+  switch (kind) {
+    case GuidanceKind::kMotion:
+      return "motion";
+    case GuidanceKind::kCommands:
+      return "commands";
+    case GuidanceKind::kController:
+      return "controller";
+    case GuidanceKind::kNode:
+      return "node";
+    case GuidanceKind::kReplay:
+      break;
+  }
+  return "replay";
+}
+
+GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults) {
+  GuidanceSettings settings;
+  const std::string kind = section.choice("type", kindNames());
+  for (GuidanceKind one : kKinds) {
+    if (kind == guidanceName(one)) settings.kind = one;
+  }
+  const double period = frequency > 0.0 ? 1.0 / frequency : 1.0;
+  settings.wingbeat.frequency = frequency;
+  const double time_constant =
+      section.number("time_constant", {Bound::kPositive, "flaps", "0.25 is usual"});
+  settings.wingbeat.time_constant = time_constant * period;
+  readLimits(section, period, settings.wingbeat);
+  if (settings.kind == GuidanceKind::kReplay) {
+    try {
+      settings.replay = readReplay(section);
+    } catch (const InputError& e) {
+      faults.add(e.what());
+    }
+  } else {
+    section.take("file");
+    section.take("rows");
+  }
+  if (settings.kind == GuidanceKind::kController) {
+    settings.controller = readLaw(section, time_constant, c, faults);
+  } else {
+    section.take("controller");  // of a controlled case that is flown otherwise
+  }
+  section.finish();
+  return settings;
+}
+
+void checkGuidance(const Case& c, const CaseMotion& motion, Faults& faults) {
+  const GuidanceSettings& g = c.guidance;
+  if (g.kind == GuidanceKind::kReplay) {
+    if (!g.replay) return;
+    const auto& rows = g.replay->rows;
+    if (rows.size() <= c.time.steps) {
+      faults.add(g.replay->name + ": has " + std::to_string(rows.size()) +
+                 " rows: must have one a level, " + std::to_string(c.time.steps + 1) +
+                 "; fly fewer flaps or give the table of a longer flight");
+      return;
+    }
+    for (std::uint32_t i = 0; i <= c.time.steps; ++i) {
+      if (std::abs(rows[i][0] - c.time.time(i)) <= 1e-6 * c.time.dt) continue;
+      std::ostringstream text;
+      text.precision(9);
+      text << g.replay->name << ": row " << i + 1 << ", column t = " << rows[i][0] << " s: must be "
+           << c.time.time(i) << " s as in this run; take the case and the time "
+           << "step of the flight that is flown again";
+      faults.add(text.str());
+      return;
+    }
+    return;
+  }
+  if (g.kind == GuidanceKind::kMotion) return;
+  faults.add(g.wingbeat.problems());
+  if (!motion.is_table) return;
+  const CommandLimits& f = g.wingbeat.limits[2];
+  if (f.low == 0.0 && f.high == 0.0) return;
+  faults.add("guidance/limits/frequency = [" + exactText(f.low) + ", " + exactText(f.high) +
+             "]: must be [0, 0] with a motion by a table, which has its own clock");
+}
+
+}  // namespace monarch_flight

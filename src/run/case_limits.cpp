@@ -1,0 +1,71 @@
+// What a case asks for that the model or its time step cannot give.
+#include <cmath>
+#include <sstream>
+
+#include "monarch_flight/fluid/quasi_steady.h"
+#include "monarch_flight/run/wing_speeds.h"
+#include "run/case_parts.h"
+
+namespace monarch_flight {
+namespace {
+
+// In a natural period of the hinge: theta_R is then 10 % off (docs/case_files.md, time).
+constexpr double kLeastSteps = 10.0;
+constexpr double kMostTurn = 1.0;  // of the wing in a step [rad]: six steps in a turn
+constexpr char kMirrored[] = " m/s: must be 0 while only one wing is solved and mirrored; ";
+
+/// How to have steps of at most `dt` [s].
+std::string shorterSteps(const Case& c, double dt) {
+  std::ostringstream text;
+  text << "dt <= " << dt << " s";
+  if (c.time.period > 0.0) {
+    text << " (steps_per_flap >= " << std::ceil(c.time.period / dt * (1.0 - 1e-9)) << ')';
+  }
+  return text.str();
+}
+
+void checkHinge(const Case& c, Faults& faults) {
+  if (!c.free.wing_pitch || !(c.insect.kappa > 0.0)) return;
+  const double added =
+      makeQuasiSteady(c.insect.planform, c.air, c.blade_element)->addedMass()(4, 4);
+  const double inertia = c.insect.right.J(1, 1) + added;
+  const double period = 2.0 * M_PI * std::sqrt(inertia / c.insect.kappa);
+  const double longest = period / kLeastSteps;
+  if (c.time.dt <= longest) return;
+  std::ostringstream text;
+  text << "insect/wing/kappa = " << c.insect.kappa << " N m/rad: the free wing swings in " << period
+       << " s on this hinge: must be at least " << kLeastSteps << " steps of dt = " << c.time.dt
+       << " s, else the time step makes its swings; take kappa <= "
+       << inertia * std::pow(2.0 * M_PI / (kLeastSteps * c.time.dt), 2) << ", or "
+       << shorterSteps(c, longest);
+  faults.add(text.str());
+}
+
+void checkTurns(const Case& c, Faults& faults) {
+  const double fastest = peakWingSpeeds(c).turn;
+  const double turn = fastest * c.time.dt;
+  if (turn <= kMostTurn) return;
+  std::ostringstream text;
+  text << "time: the wing turns by up to " << turn << " rad in a step of dt = " << c.time.dt
+       << " s: must be <= " << kMostTurn << "; take " << shorterSteps(c, kMostTurn / fastest);
+  faults.add(text.str());
+}
+
+}  // namespace
+
+void checkTimeStep(const Case& c, Faults& faults) {
+  checkHinge(c, faults);
+  checkTurns(c, faults);
+}
+
+void checkMirrored(const Case& c, const CaseMotion& motion, const InitialValues& initial,
+                   Faults& faults) {
+  if (c.insect.bare_wing) return;
+  if (!motion.lateral.empty()) faults.add(motion.lateral);
+  if (initial.velocity && initial.velocity->y() != 0.0) {
+    faults.add("initial/velocity[1] = " + exactText(initial.velocity->y()) + kMirrored +
+               "set it to 0");
+  }
+}
+
+}  // namespace monarch_flight

@@ -1,0 +1,222 @@
+#include "monarch_flight/trim/control_design.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <ostream>
+
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/trim/trim.h"
+#include "trim/control_scales.h"
+
+namespace monarch_flight {
+namespace {
+
+using Eigen::Index;
+constexpr double kDegree = M_PI / 180.0;
+
+/// Trims over a rectangle of speeds and climb angles, grown from the set point outwards.
+class TableSearch {
+ public:
+  TableSearch(const PhaseMap& map, const ControlOptions& options, std::ostream& log)
+      : map_(map), options_(options), log_(log) {}
+
+  void grow(const ControlTrim& centre, std::vector<double> speeds, std::vector<double> climbs) {
+    const int s0 = place(speeds, centre.speed), c0 = place(climbs, centre.climb);
+    trims_[{s0, c0}] = centre;
+    int low = s0, high = s0, down = c0, up = c0;
+    while (low > 0 && reach(speeds, climbs, low - 1, c0, low, c0)) --low;
+    while (high + 1 < int(speeds.size()) && reach(speeds, climbs, high + 1, c0, high, c0)) ++high;
+    const auto row = [&](int k, int from) {
+      for (int i = low; i <= high; ++i)
+        if (!reach(speeds, climbs, i, k, i, from)) return false;
+      return true;
+    };
+    while (down > 0 && row(down - 1, down)) --down;
+    while (up + 1 < int(climbs.size()) && row(up + 1, up)) ++up;
+    speeds_.assign(speeds.begin() + low, speeds.begin() + high + 1);
+    climbs_.assign(climbs.begin() + down, climbs.begin() + up + 1);
+    first_ = {low, down};
+    centre_ = {s0, c0};
+  }
+
+  const ControlTrim& at(std::size_t i, std::size_t k) const {
+    return trims_.at({first_.first + int(i), first_.second + int(k)});
+  }
+  const ControlTrim& centre() const { return trims_.at(centre_); }
+  const std::vector<double>& speeds() const { return speeds_; }
+  const std::vector<double>& climbs() const { return climbs_; }
+
+ private:
+  using Cell = std::pair<int, int>;
+
+  /// The list is made to hold the value.
+  static int place(std::vector<double>& list, double value) {
+    constexpr double kSame = 1e-9;
+    const auto near = std::find_if(list.begin(), list.end(),
+                                   [&](double x) { return std::abs(x - value) < kSame; });
+    if (near == list.end()) list.push_back(value);
+    std::sort(list.begin(), list.end());
+    return static_cast<int>(std::find_if(list.begin(), list.end(),
+                                         [&](double x) { return std::abs(x - value) < kSame; }) -
+                            list.begin());
+  }
+
+  bool reach(const std::vector<double>& speeds, const std::vector<double>& climbs, int i, int k,
+             int from_i, int from_k) {
+    const double speed = speeds[std::size_t(i)], climb = climbs[std::size_t(k)];
+    log_ << "  " << speed << " m/s at " << climb / kDegree << " deg: " << std::flush;
+    try {
+      ControlTrim trim = findTrim(map_, options_, speed, climb, guess(i, k, from_i, from_k));
+      for (std::size_t input : options_.inputs)
+        log_ << kCommandTable[input].name << ' '
+             << trim.wingbeat.command.*kCommandTable[input].value << ' ';
+      log_ << "residual " << trim.residual << std::endl;
+      trims_[{i, k}] = std::move(trim);
+      return true;
+    } catch (const NumericalError& e) {
+      log_ << e.what() << std::endl;
+      return false;
+    }
+  }
+
+  /// On the straight line through the two neighbours in this direction.
+  ControlTrim guess(int i, int k, int from_i, int from_k) const {
+    ControlTrim near = trims_.at({from_i, from_k});
+    const auto before = trims_.find({2 * from_i - i, 2 * from_k - k});
+    if (before == trims_.end()) return near;
+    near.start += near.start - before->second.start;
+    for (std::size_t c : options_.inputs) {
+      double& value = near.wingbeat.command.*kCommandTable[c].value;
+      const double step = value - before->second.wingbeat.command.*kCommandTable[c].value;
+      value = std::clamp(value + step, options_.limits[c].low, options_.limits[c].high);
+    }
+    return near;
+  }
+
+  const PhaseMap& map_;
+  const ControlOptions& options_;
+  std::ostream& log_;
+  std::map<Cell, ControlTrim> trims_;
+  std::vector<double> speeds_, climbs_;
+  Cell first_, centre_;
+};
+
+/// The table of a controller; `moved`: the orbit that stands for the trim at the set point.
+TrimTable tableOf(const TableSearch& search, const ControlOptions& options, int n,
+                  const std::vector<FlapState>* moved) {
+  const auto m = static_cast<Index>(options.inputs.size());
+  const auto rows = static_cast<Index>(search.speeds().size() * search.climbs().size());
+  Eigen::MatrixXd commands(rows, m), states(rows * options.samples, n);
+  Index point = 0;
+  for (std::size_t i = 0; i < search.speeds().size(); ++i) {
+    for (std::size_t k = 0; k < search.climbs().size(); ++k, ++point) {
+      const ControlTrim& trim = search.at(i, k);
+      const WingbeatChange& centre = search.centre().wingbeat.command;
+      for (Index c = 0; c < m; ++c) {
+        const auto value = kCommandTable[options.inputs[std::size_t(c)]].value;
+        commands(point, c) = trim.wingbeat.command.*value - (moved ? centre.*value : 0.0);
+      }
+      for (int j = 0; j < options.samples; ++j) {
+        const auto s = static_cast<std::size_t>(j);
+        FlapState x = trim.orbit[s];
+        if (moved) x += (*moved)[s] - search.centre().orbit[s];
+        for (Index k = 0; k < n; ++k) states(point * options.samples + j, k) = x(k);
+      }
+    }
+  }
+  return {search.speeds(), search.climbs(), commands, states};
+}
+
+/// Weights of the recursion, and the gains cut into the controller's parts.
+void setGains(ControlDesign& design, int n) {
+  const ControlOptions& options = design.options;
+  const auto m = static_cast<Index>(options.inputs.size());
+  const Index all = n + 3 * m + 2;
+  constexpr double kIntegralScale = 0.1;  // [m/s flaps]
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(all, all), R = Eigen::MatrixXd::Zero(m, m);
+  for (Index i = 0; i < n; ++i) Q(i, i) = options.state_weight / std::pow(trimScales()(i), 2);
+  for (Index i = all - 2; i < all; ++i)
+    Q(i, i) = options.integral_weight / (kIntegralScale * kIntegralScale);
+  for (Index i = 0; i < m; ++i)
+    R(i, i) = options.input_weight / std::pow(commandScale(options.inputs[std::size_t(i)]), 2);
+  const PeriodicLqr lqr = periodicLqr(design.stages, Q, R);
+  design.riccati_periods = lqr.periods;
+  design.open_loop = multipliers(design.stages, {});
+  design.closed_loop = multipliers(design.stages, lqr.gains);
+  if (!lqr.converged || !(std::abs(design.closed_loop.front()) < 1.0))
+    throw NumericalError(
+        "the recursion for the gains does not converge: these inputs cannot hold speed and climb; "
+        "choose others, as inputs:=amplitude,deviation_mean");
+  ControllerSettings& s = design.settings;
+  s.state_gain.resize(m * options.samples, n);
+  s.filter_gain.resize(m * options.samples, 3 * m);
+  s.integral_gain.resize(m * options.samples, 2);
+  for (int j = 0; j < options.samples; ++j) {
+    const Eigen::MatrixXd& K = lqr.gains[std::size_t(j)];
+    s.state_gain.middleRows(j * m, m) = K.leftCols(n);
+    s.filter_gain.middleRows(j * m, m) = K.middleCols(n, 3 * m);
+    s.integral_gain.middleRows(j * m, m) = K.rightCols(2);
+  }
+}
+
+std::vector<double> around(double middle, double step) {
+  std::vector<double> list;
+  for (int i = -2; i <= 2; ++i) list.push_back(middle + i * step);
+  return list;
+}
+
+void checkCase(const Case& c, const ControlOptions& options) {
+  std::vector<std::string> faults;
+  if (!c.free.x || !c.free.z || !c.free.pitch)
+    faults.push_back("free: x, z and pitch must be true for a flight to be controlled; free them");
+  if (options.inputs.size() < 2)
+    faults.push_back(
+        "inputs: must be two commands or more to hold speed and climb; amplitude,deviation_mean "
+        "is usual");
+  if (!faults.empty()) throw InputError(faults);
+}
+
+}  // namespace
+
+ControlDesign designController(const Case& c, const ControlOptions& options, std::ostream& log) {
+  checkCase(c, options);
+  const PhaseMap map(c, options.samples, options.time_constant * c.time.period);
+  const int n = controlStates(c);
+  const SetPoint own = ownSetPoint(c);
+  const double speed = options.speed.value_or(own.speed), climb = options.climb.value_or(own.climb);
+  ControlTrim start;
+  start.start = map.prescribedState(0);
+  log << "periodic flights by constant commands:\n  " << speed << " m/s at " << climb / kDegree
+      << " deg, the set point: " << std::flush;
+  const ControlTrim centre = findTrim(map, options, speed, climb, start);
+  log << "residual " << centre.residual << std::endl;
+  TableSearch search(map, options, log);
+  search.grow(centre, options.speeds.empty() ? around(speed, 0.15 * speed) : options.speeds,
+              options.climbs.empty() ? around(climb, 10.0 * kDegree) : options.climbs);
+
+  ControlDesign design;
+  design.options = options;
+  std::vector<FlapState> orbit = centre.orbit;
+  if (options.own_orbit)
+    for (int j = 0; j < options.samples; ++j) orbit[std::size_t(j)] = map.prescribedState(j);
+  design.stages = linearise(map, options, centre.orbit, centre.wingbeat);
+  ControllerSettings& s = design.settings;
+  s.samples = options.samples;
+  s.inputs = options.inputs;
+  s.time_constant = options.time_constant;
+  s.wing_pitch = c.free.wing_pitch;
+  s.table = tableOf(search, options, n, options.own_orbit ? &orbit : nullptr);
+  setGains(design, n);
+  s.set_points = {{0.0, speed, climb}};
+  s.slew = 0.1;
+  s.lost_pitch = 75.0 * kDegree;
+  s.lost_flaps = 10.0;
+  design.residual = centre.residual;
+  for (std::size_t i = 0; i < search.speeds().size(); ++i)
+    for (std::size_t k = 0; k < search.climbs().size(); ++k)
+      design.residual = std::max(design.residual, search.at(i, k).residual);
+  return design;
+}
+
+}  // namespace monarch_flight

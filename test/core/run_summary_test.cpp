@@ -1,0 +1,117 @@
+// What summary.json says beside its figures: nothing was ever free, the body has turned over.
+#include "checkpoint_fixture.h"
+#include "monarch_flight/insect/start_motion.h"
+#include "monarch_flight/run/summary.h"
+#include "run_files_fixture.h"
+
+namespace monarch_flight {
+namespace {
+
+nlohmann::json summaryOf(const Case& c, const std::function<double(std::uint32_t)>& pitch) {
+  Summary summary(c);
+  for (std::uint32_t n = 0; n <= c.time.steps; ++n) {
+    CommittedStep s = stepAt(n);
+    s.prescribed = n <= static_cast<std::uint32_t>(c.coupling.prescribed_steps);
+    s.interface.body = withPitch(s.interface.body, {pitch(n), 0.0, 0.0});
+    summary.add(s);
+  }
+  return nlohmann::json::parse(summary.json(""));
+}
+
+Case freeCase() {
+  Case c = smallCase();  // ten steps a flap, 25 steps, the first ten prescribed
+  c.free.pitch = true;
+  return c;
+}
+
+TEST(SummaryRemarks, ARunWithoutAFreeStepSaysSo) {
+  const auto level = [](std::uint32_t) { return 0.1; };
+  Case c = freeCase();
+  EXPECT_EQ(summaryOf(c, level).at("remarks").size(), 0u);
+  EXPECT_EQ(summaryOf(c, level).at("free_steps"), 15);
+  c.time.steps = 11;
+  EXPECT_EQ(summaryOf(c, level).at("remarks").size(), 0u);
+  EXPECT_EQ(summaryOf(c, level).at("free_steps"), 1);
+  for (const std::uint32_t steps : {10u, 5u}) {
+    c.time.steps = steps;
+    const nlohmann::json j = summaryOf(c, level);
+    EXPECT_EQ(j.at("free_steps"), 0);
+    ASSERT_EQ(j.at("remarks").size(), 1u);
+    const std::string remark = j.at("remarks").at(0);
+    expectHas(remark, "nothing is ever free: all " + std::to_string(steps) + " steps");
+    expectHas(remark, "coupling/prescribed_steps = 10");
+  }
+  c.time.steps = 25;
+  c.time.remainder = 0.25;
+  ASSERT_EQ(summaryOf(c, level).at("remarks").size(), 1u);
+  expectHas(summaryOf(c, level).at("remarks").at(0), "the remainder of 0.25 steps is not flown");
+  c.time = freeCase().time;
+  c.free = {};  // as it was meant
+  EXPECT_EQ(summaryOf(c, level).at("remarks").size(), 0u);
+}
+
+TEST(SummaryTumbled, NamesTheFirstFlapBeyondSixtyDegrees) {
+  const double degree = kPi / 180.0;
+  const auto beyond = [degree](std::uint32_t first, double angle) {
+    return [=](std::uint32_t n) { return n == first ? angle * degree : 59.9 * degree; };
+  };
+  const Case c = freeCase();
+  nlohmann::json j = summaryOf(c, beyond(99, 0.0));
+  EXPECT_TRUE(j.at("tumbled_from_flap").is_null());
+  EXPECT_TRUE(j.at("tumbled_from_step").is_null());
+  // Either way over; the last step of a flap belongs to it. Once over, over.
+  const std::pair<std::uint32_t, int> steps[] = {{0, 1},  {1, 1},  {10, 1},
+                                                 {11, 2}, {20, 2}, {21, 3}};
+  for (const auto& [step, flap] : steps) {
+    j = summaryOf(c, beyond(step, step % 2 ? 60.1 : -60.1));
+    EXPECT_EQ(j.at("tumbled_from_flap"), flap) << step;
+    EXPECT_EQ(j.at("tumbled_from_step"), step);
+  }
+  Case still = c;
+  still.time.period = 0.0;  // no flaps to count
+  j = summaryOf(still, beyond(7, 70));
+  EXPECT_TRUE(j.at("tumbled_from_flap").is_null());
+  EXPECT_EQ(j.at("tumbled_from_step"), 7);
+  Case led = c;
+  led.free.pitch = false;  // a motion that turns over is what was asked for
+  EXPECT_TRUE(summaryOf(led, beyond(7, 70)).at("tumbled_from_step").is_null());
+}
+
+TEST_F(RunFiles, AResetForgetsThatTheBodyHasTurnedOver) {
+  Case c = freeCase();
+  RunOutputs outputs(c, out());
+  CommittedStep over = stepAt(3);
+  over.interface.body = withPitch(over.interface.body, {2.0, 0.0, 0.0});
+  outputs.onStep(stepAt(0));
+  outputs.onStep(over);
+  outputs.onReset();
+  outputs.onStep(stepAt(0));
+  outputs.onStep(stepAt(1));
+  outputs.onEnd("");
+  EXPECT_TRUE(nlohmann::json::parse(read("summary.json")).at("tumbled_from_step").is_null());
+}
+
+/// Behind a checkpoint at step 20 the body has turned over already.
+TEST_F(Checkpointed, ThatTheBodyHasTurnedOverOutlivesAKilledRun) {
+  Case c = climb();
+  const auto tumble = [](const Case& base) {  // 59 deg and turning at the start
+    Case over = base;
+    StartValues start;
+    start.pitch = StartValue{1.04, 20.0, 0.0};
+    over.motion = std::make_shared<StartMotion>(base.motion, start, base.time.t_start);
+    return over;
+  };
+  c = tumble(c);
+  ASSERT_TRUE(fly(c, "whole").complete);
+  const nlohmann::json step = summary("whole").at("tumbled_from_step");
+  ASSERT_TRUE(step.is_number());
+  ASSERT_LT(step, 20);
+  flyAndKill(c, "cut", 27);
+  ASSERT_TRUE(fly(c, "cut", true).complete);
+  EXPECT_EQ(summary("cut").at("resumed").at(0).at("step"), 20);
+  EXPECT_EQ(summary("cut").at("tumbled_from_step"), step);
+  EXPECT_EQ(summary("cut").at("tumbled_from_flap"), 1);
+}
+
+}  // namespace
+}  // namespace monarch_flight
