@@ -52,7 +52,7 @@ nlohmann::json nsPerCell(const std::vector<Sample>& samples, long cells) {
 /// Time of a sub-iteration that takes its loads from the affine operator instead of the flow: six
 /// loads from twelve numbers, and the answers of flight and wing to them [s].
 double operatorSeconds() {
-  const Case c = loadCase("climb", {}, CONFIG_DIR);
+  const Case c = loadCase("climb_printed", {}, CONFIG_DIR);
   const CoupledModel model = makeModel(c);
   StepModel step(model, c.coupling.length_scale);
   step.begin(c.motion->at(model.time(0)).interface(), c.motion->at(model.time(1)), 1);

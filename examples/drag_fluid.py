@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A fluid node of one's own: each wing a rectangle with nothing but drag normal to its plane.
 
-  roslaunch monarch_flight flight.launch case:=climb fluid_node:=drag_fluid.py flaps:=0.1
+  roslaunch monarch_flight flight.launch case:=climb_printed fluid_node:=drag_fluid.py flaps:=0.1
 
 Force on a strip of the wing: -1/2 rho C_n c dy |u| u along the wing's normal, u being its speed
 normal to the wing at half chord; C_n = 1.98 is the measured normal-force coefficient of a plate

@@ -1,5 +1,6 @@
 """Case files (docs/case_files.md) in Python: read to be changed and written elsewhere."""
 import hashlib
+import json
 import pathlib
 import re
 
@@ -43,3 +44,37 @@ def run_name(case, *options):
     path = path_of(case)
     digest = hashlib.sha256(path.read_bytes()).hexdigest()[:8]
     return "_".join([path.stem] + [option.partition(":=")[2] for option in options] + [digest])
+
+
+def scalar(value):
+    """A number, truth or text of a case, as YAML that reads back the same."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    plain = re.fullmatch(r"[A-Za-z0-9_./][A-Za-z0-9_./ ,()&'-]*", value) and value.strip() == value
+    return value if plain else json.dumps(value, ensure_ascii=False)
+
+
+def inline(node):
+    """A part of a case in one line."""
+    if isinstance(node, dict):
+        return "{" + ", ".join(f"{key}: {inline(value)}" for key, value in node.items()) + "}"
+    if isinstance(node, list):
+        return "[" + ", ".join(inline(value) for value in node) + "]"
+    return json.dumps(node) if isinstance(node, str) and "," in node else scalar(node)
+
+
+def text(content, comments=None, above="", indent=""):
+    """The file of a case; `comments`: what stands above a key, by its path (insect/wing/mass)."""
+    lines = []
+    for key, value in content.items():
+        path = above + key
+        lines += [f"{indent}# {line}" for line in (comments or {}).get(path, "").splitlines()]
+        if isinstance(value, dict) and value:
+            lines += [f"{indent}{key}:", text(value, comments, path + "/", indent + "  ").rstrip("\n")]
+        elif isinstance(value, list) and value and isinstance(value[0], list):
+            lines += [f"{indent}{key}:"] + [f"{indent}  - {inline(row)}" for row in value]
+        else:
+            lines.append(f"{indent}{key}: {inline(value)}")
+    return "\n".join(lines) + "\n"

@@ -1,4 +1,5 @@
-"""The paper's figures 2, 4 to 9 and those of docs/dynamics.md; each function returns a matplotlib figure."""
+"""The paper's figures 2, 4 to 9, those of docs/dynamics.md and of controlled flights; each function returns a matplotlib
+figure, or several by their names."""
 import json
 import math
 
@@ -9,6 +10,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 import figure_data as data  # noqa: E402
+from control_figure import figure_control  # noqa: E402
 import marker_reduction as reduction  # noqa: E402
 
 deg = np.degrees
@@ -253,4 +255,5 @@ def figure_dynamics(settings):
 
 
 FIGURES = {"fig2": figure_2, "fig4": figure_4, "fig5": figure_5, "fig6": figure_6, "fig7": figure_7,
-           "fig8": figure_8, "fig9": figure_9, "dynamics": figure_dynamics}
+           "fig8": figure_8, "fig9": figure_9, "dynamics": figure_dynamics,
+           "control": figure_control}

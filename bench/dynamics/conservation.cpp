@@ -86,7 +86,7 @@ DynamicsRows checkConservation(const DynamicsFolders& folders) {
 
 DynamicsRows checkEnergy(const DynamicsFolders& folders) {
   DynamicsRows rows;
-  for (const char* name : {"climb", "climb_fwuav"}) {
+  for (const char* name : {"climb_printed", "climb_fwuav"}) {
     const Case c = loadCase(name, {}, folders.config);
     const double f = 1.0 / c.time.period;
     const std::string of = std::string(" (") + name + "), J of swing of kinetic energy";

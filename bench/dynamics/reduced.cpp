@@ -53,7 +53,7 @@ Eigen::Matrix<double, 8, 1> fullSystem(const Insect& insect, double gravity, Bod
 }  // namespace
 
 DynamicsRows checkReducedForm(const DynamicsFolders& folders) {
-  const Case c = loadCase("climb", {}, folders.config);
+  const Case c = loadCase("climb_printed", {}, folders.config);
   const FlightSolver flight(c.insect, c.gravity, kAllFree, Newmark());
   const WingPitchSolver wing(c.insect, c.gravity, Newmark());
   Draw draw;

@@ -171,7 +171,7 @@ class Engine {
 }  // namespace
 
 DynamicsRows checkSimbody(const DynamicsFolders& folders) {
-  const Case c = loadCase("climb", {}, folders.config);
+  const Case c = loadCase("climb_printed", {}, folders.config);
   const double f = 1.0 / c.time.period;
   const LongitudinalFlight flight(c.insect, c.gravity, c.motion,
                                   [f](double t) { return smoothLoads(f, t); });

@@ -10,7 +10,15 @@
 namespace monarch_flight {
 namespace {
 
-const std::vector<std::string> kKinds = {"motion", "commands", "controller", "node", "replay"};
+constexpr GuidanceKind kKinds[] = {GuidanceKind::kMotion, GuidanceKind::kCommands,
+                                   GuidanceKind::kController, GuidanceKind::kNode,
+                                   GuidanceKind::kReplay};
+
+std::vector<std::string> kindNames() {
+  std::vector<std::string> names;
+  for (GuidanceKind kind : kKinds) names.push_back(guidanceName(kind));
+  return names;
+}
 
 std::string unitOf(const CommandInfo& info) { return info.unit; }
 
@@ -69,11 +77,27 @@ std::optional<ControllerSettings> readLaw(Section& section, double time_constant
 
 }  // namespace
 
+const char* guidanceName(GuidanceKind kind) {
+  switch (kind) {
+    case GuidanceKind::kMotion:
+      return "motion";
+    case GuidanceKind::kCommands:
+      return "commands";
+    case GuidanceKind::kController:
+      return "controller";
+    case GuidanceKind::kNode:
+      return "node";
+    case GuidanceKind::kReplay:
+      break;
+  }
+  return "replay";
+}
+
 GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults) {
   GuidanceSettings settings;
-  const std::string kind = section.choice("type", kKinds);
-  for (std::size_t i = 0; i < kKinds.size(); ++i) {
-    if (kKinds[i] == kind) settings.kind = static_cast<GuidanceKind>(i);
+  const std::string kind = section.choice("type", kindNames());
+  for (GuidanceKind one : kKinds) {
+    if (kind == guidanceName(one)) settings.kind = one;
   }
   const double period = frequency > 0.0 ? 1.0 / frequency : 1.0;
   settings.wingbeat.frequency = frequency;

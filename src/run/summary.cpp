@@ -62,6 +62,8 @@ void Summary::add(const CommittedStep& step) {
   theta_B_.add(body.pitch.q);
   theta_R_.add(step.interface.theta_R.q);
   if (case_.free.pitch && tumbled_ == kNever && std::abs(body.pitch.q) > kTumbled) tumbled_ = step.step;
+  guidance_ = step.guidance;
+  if (guidance_.lost && lost_ == kNever) lost_ = step.step;
   hash_.add(step);
   addTimes(step);
   ignored_ = step.ignored;
@@ -143,6 +145,9 @@ void Summary::memory(StateVisitor& state) {
   state("steps_retried", retried_);
   state("whole_flaps", whole_flaps_);
   state("tumbled", tumbled_);
+  state("guidance_clipped", guidance_.clipped);
+  state("guidance_refused", guidance_.refused);
+  state("guidance_lost_at", lost_);
   state("t_first", t_first_);
   state("t_last", t_last_);
   state("x_first", x_first_);
@@ -211,6 +216,12 @@ std::string Summary::json(const std::string& failure) const {
   j["speed_m_s"] = meanVelocity().norm();
   j["theta_B_deg"] = degrees(theta_B_);
   j["theta_R_deg"] = degrees(theta_R_);
+  if (case_.guidance.kind != GuidanceKind::kMotion) {
+    j["guidance"] = {{"type", guidanceName(case_.guidance.kind)},
+                     {"clipped", guidance_.clipped},
+                     {"refused", guidance_.refused},
+                     {"lost_from_flap", lost_ == kNever ? Json(nullptr) : Json(flapOf(lost_))}};
+  }
   j["wall_s"] = {{"total", wallSeconds()},
                  {"fluid", wall_[0]},
                  {"flight", wall_[1]},

@@ -54,11 +54,11 @@ class Checkpointed : public CaseTest {
                             {"steps_per_flap", "100"},
                             {"checkpoint_every", "10"}};
     for (const auto& [key, value] : more) overrides[key] = value;
-    return loadCase("climb", overrides, CONFIG_DIR);
+    return loadCase("climb_printed", overrides, CONFIG_DIR);
   }
   /// A climb in Navier-Stokes air on a grid of a few thousand cells.
   static Case viscous() {
-    Case c = loadCase("climb",
+    Case c = loadCase("climb_printed",
                       {{"fluid", "navier_stokes"},
                        {"flaps", "0.1"},
                        {"steps_per_flap", "300"},

@@ -57,13 +57,13 @@ extra: 1
 
 TEST_F(CaseTest, FilesAndNames) {
   expectHas(faults("nope"),
-            "one of climb, climb_fwuav, climb_navier_stokes, climb_navier_stokes_standard, "
+            "one of climb, climb_fwuav, climb, climb_standard, "
             "climb_trimmed, hinge, measured_motion, passive_pitch, plate_re100, tethered_fwuav");
   expectHas(faults("/nonexistent/case.yaml"), "/nonexistent/case.yaml does not exist");
   expectHas(faults(write("syntax.yaml", "a: [1\n")), "is not YAML");
   expectHas(faults(write("list.yaml", "[1, 2]\n")), "holds no keys");
-  expectHas(faultsWith("climb", "preset: monarch_paper", "preset: bee"), "insect/preset = 'bee'");
-  expectHas(faultsWith("climb", "series: monarch", "series: bee"),
+  expectHas(faultsWith("climb_printed", "preset: monarch_paper", "preset: bee"), "insect/preset = 'bee'");
+  expectHas(faultsWith("climb_printed", "series: monarch", "series: bee"),
             "bee_kinematics.yaml does not exist; there are monarch");
   expectHas(faultsWith("hinge", "whitney_wood_wing.csv", "absent.csv"),
             "absent.csv: cannot be read");
@@ -102,7 +102,7 @@ TEST_F(CaseTest, NonPhysicalValues) {
       faultsWith("plate_re100", "phi_deg: 0", "phi_deg: {A0: 0, AN: [1], BN: [0], multiple: 1}"),
       "motion/phi_deg/AN: harmonics need motion/frequency > 0");
   expectHas(faultsWith("hinge", "BN: [0]", "BN: []"), "motion/phi_deg/BN has 0 values");
-  expectHas(faultsWith("climb", "velocity: [1.3, 0, -0.562]\n  theta_B",
+  expectHas(faultsWith("climb_printed", "velocity: [1.3, 0, -0.562]\n  theta_B",
                        "velocity: [1.3, 0.1, -0.562]\n  theta_B"),
             "initial/velocity[1] = 0.1 m/s: must be 0 while only one wing is solved and mirrored");
   expectHas(faultsWith("hinge", "free:", "initial: {theta_B: 0.1}\nfree:"),
@@ -115,8 +115,8 @@ TEST_F(CaseTest, CourantEstimateRefusesTooLargeSteps) {
   const std::string text = faultsWith("plate_re100", "dt: 0.02", "dt: 0.2");
   expectHas(text, "Courant number of 3.2");
   expectHas(text, "grid/courant_limit = 3; take dt <= 0.1875 s");
-  expectHas(faults("climb", {{"steps_per_flap", "20"}}), "take steps_per_flap >= ");
-  EXPECT_EQ(faults("climb", {{"steps_per_flap", "20"}, {"fluid", "quasi_steady"}}), "");
+  expectHas(faults("climb_printed", {{"steps_per_flap", "20"}}), "take steps_per_flap >= ");
+  EXPECT_EQ(faults("climb_printed", {{"steps_per_flap", "20"}, {"fluid", "quasi_steady"}}), "");
 }
 
 TEST_F(CaseTest, AWingThatIsSlowAtItsTipIsFastElsewhere) {

@@ -25,18 +25,18 @@ struct Subject {
 };
 
 constexpr Subject kSubjects[] = {
-    {"climb", "cases/climb.yaml"},
+    {"climb_printed", "cases/climb_printed.yaml"},
     {"climb_fwuav", "cases/climb_fwuav.yaml"},
     {"climb_trimmed", "cases/climb_trimmed.yaml"},
     {"hinge", "cases/hinge.yaml"},
     {"plate_re100", "cases/plate_re100.yaml"},
     {"tethered_fwuav", "cases/tethered_fwuav.yaml"},
-    {"climb", "insects/monarch_paper.yaml"},
-    {"climb", "insects/monarch_kinematics.yaml"},
-    {"climb", "insects/monarch_planform.csv"},
+    {"climb_printed", "insects/monarch_paper.yaml"},
+    {"climb_printed", "insects/monarch_kinematics.yaml"},
+    {"climb_printed", "insects/monarch_planform.csv"},
     {"climb_fwuav", "insects/monarch_fwuav.yaml"},
     {"hinge", "insects/whitney_wood_wing.csv"},
-    {"climb", "defaults.yaml"},
+    {"climb_printed", "defaults.yaml"},
 };
 
 class MutationTest : public CaseTest {
@@ -93,7 +93,7 @@ TEST_F(MutationTest, EveryBrokenFileIsReadOrRefusedWithAMessage) {
 
 /// A number that is replaced by what is no number is refused by the name of its key.
 TEST_F(MutationTest, AWrongValueIsNamedByItsKey) {
-  const std::string whole = contentOf(fs::path(CONFIG_DIR) / "cases/climb.yaml");
+  const std::string whole = contentOf(fs::path(CONFIG_DIR) / "cases/climb_printed.yaml");
   int checked = 0;
   std::size_t begin = 0;
   while (begin < whole.size()) {
@@ -106,8 +106,8 @@ TEST_F(MutationTest, AWrongValueIsNamedByItsKey) {
       if (key != "name" && key != "description") {
         std::string broken = whole;
         broken.replace(begin + colon + 2, line.size() - colon - 2, "{rubbish: [1, x]}");
-        put("cases/climb.yaml", broken);
-        expectHas(faultsOf("climb"), key);
+        put("cases/climb_printed.yaml", broken);
+        expectHas(faultsOf("climb_printed"), key);
         ++checked;
       }
     }

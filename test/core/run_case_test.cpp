@@ -10,7 +10,7 @@ namespace monarch_flight {
 namespace {
 
 TEST_F(CaseTest, EveryShippedCaseLoads) {
-  for (const char* name : {"climb", "climb_fwuav", "climb_trimmed", "tethered_fwuav", "hinge",
+  for (const char* name : {"climb_printed", "climb_fwuav", "climb_trimmed", "tethered_fwuav", "hinge",
                            "plate_re100"}) {
     const Case c = loadCase(name, {}, CONFIG_DIR);
     EXPECT_EQ(c.name, name);
@@ -24,7 +24,7 @@ TEST_F(CaseTest, EveryShippedCaseLoads) {
 }
 
 TEST_F(CaseTest, ClimbIsThePapersFlight) {
-  const Case c = loadCase("climb", {}, CONFIG_DIR);
+  const Case c = loadCase("climb_printed", {}, CONFIG_DIR);
   EXPECT_EQ(c.free.count(), 4);
   EXPECT_NEAR(c.insect.planform.span(), 0.052, 1e-15);
   EXPECT_NEAR(c.insect.planform.area(), 15.2e-4, 1e-14);
@@ -63,7 +63,7 @@ TEST_F(CaseTest, PlateHasLengthsOfOrderOne) {
 }
 
 TEST_F(CaseTest, ResolvedCaseLoadsToItselfBitForBit) {
-  for (const char* name : {"climb", "climb_fwuav", "climb_trimmed", "tethered_fwuav", "hinge",
+  for (const char* name : {"climb_printed", "climb_fwuav", "climb_trimmed", "tethered_fwuav", "hinge",
                            "plate_re100"}) {
     const Case c = loadCase(name, {{"record", "false"}}, CONFIG_DIR);
     const Case again = loadCase(write("resolved.yaml", c.resolved_yaml), {}, CONFIG_DIR);
@@ -106,7 +106,7 @@ TEST_F(CaseTest, TablesAreEmbeddedAndRoundTrip) {
 }
 
 TEST_F(CaseTest, OverridesFromTheCommandLine) {
-  const Case c = loadCase("climb",
+  const Case c = loadCase("climb_printed",
                           {{"fluid", "quasi_steady"},
                            {"grid", "fine"},
                            {"flaps", "0.5"},
@@ -120,15 +120,15 @@ TEST_F(CaseTest, OverridesFromTheCommandLine) {
   EXPECT_DOUBLE_EQ(c.time.dt, 1.0 / (10.2 * 300));
   EXPECT_FALSE(c.output.record);
   // A resolved case takes another level as a whole.
-  const Case preview = loadCase("climb", {}, CONFIG_DIR);
+  const Case preview = loadCase("climb_printed", {}, CONFIG_DIR);
   const Case fine =
       loadCase(write("resolved.yaml", preview.resolved_yaml), {{"grid", "fine"}}, CONFIG_DIR);
   EXPECT_EQ(fine.grid.first_cell, GridSettings::preset("fine").first_cell);
-  expectHas(faults("climb", {{"speed", "3"}}), "speed:=3 is not a known override");
-  expectHas(faults("climb", {{"fluid", "dns"}}), "fluid/solver = 'dns': must be one of");
-  expectHas(faults("climb", {{"flaps", "-1"}}), "time/flaps = -1: must be > 0");
-  expectHas(faults("climb", {{"steps_per_flap", "2.5"}}), "must be a whole number");
-  expectHas(faults("climb", {{"record", "maybe"}}),
+  expectHas(faults("climb_printed", {{"speed", "3"}}), "speed:=3 is not a known override");
+  expectHas(faults("climb_printed", {{"fluid", "dns"}}), "fluid/solver = 'dns': must be one of");
+  expectHas(faults("climb_printed", {{"flaps", "-1"}}), "time/flaps = -1: must be > 0");
+  expectHas(faults("climb_printed", {{"steps_per_flap", "2.5"}}), "must be a whole number");
+  expectHas(faults("climb_printed", {{"record", "maybe"}}),
             "output/record = 'maybe': must be true or false");
   expectHas(faults("plate_re100", {{"flaps", "2"}}), "not both");
 }
@@ -147,7 +147,7 @@ initial: {theta_B: 0.35, theta_B_dot: 14.8, velocity: [0.893, 0, -0.952]}
 time: {steps_per_flap: 500, flaps: 1}
 )");
   const Case c = loadCase(path, {}, CONFIG_DIR);
-  const Case nominal = loadCase("climb", {}, CONFIG_DIR);
+  const Case nominal = loadCase("climb_printed", {}, CONFIG_DIR);
   EXPECT_LT((c.insect.right.J - 2.0 * nominal.insect.right.J).norm(), 1e-20);
   EXPECT_EQ(c.insect.m_B, nominal.insect.m_B);
   EXPECT_EQ(c.motion->at(0.01).angles.psi.qd, 0.0);

@@ -120,7 +120,7 @@ TEST_F(Checkpointed, OnlyTheLastTwoAreKeptAndHalfOnesAreNone) {
   fs::rename(files.path(50), files.path(50) + ".active");
   EXPECT_EQ(files.steps(), (std::vector<std::uint32_t>{40}));
   EXPECT_THROW(files.verify(50), CheckpointError);
-  EXPECT_EQ(files.verify(40).case_name, "climb");
+  EXPECT_EQ(files.verify(40).case_name, "climb_printed");
   ASSERT_TRUE(fly(climb({{"checkpoint_every", "0"}}), "none").complete);
   EXPECT_FALSE(fs::exists(folder_ / "none" / "checkpoints"));
 }

@@ -79,7 +79,7 @@ TEST(Federation, AReleasedFlightIsOfSecondOrderInTheTimeStep) {
 }
 
 TEST(Federation, TwoFlapsOfTheClimbConvergeInEveryStepAndRepeat) {
-  const Case c = quasiSteady("climb", {{"flaps", "2"}, {"steps_per_flap", "500"}});
+  const Case c = quasiSteady("climb_printed", {{"flaps", "2"}, {"steps_per_flap", "500"}});
   Recorder first, second;
   const RunResult result = fly(c, {&first});
   ASSERT_TRUE(result.complete) << result.failure;
@@ -103,13 +103,13 @@ TEST(Federation, TwoFlapsOfTheClimbConvergeInEveryStepAndRepeat) {
   EXPECT_EQ(first.hash.hex(), second.hash.hex());
 
   Recorder other;
-  const Case shorter = quasiSteady("climb", {{"flaps", "2"}, {"steps_per_flap", "400"}});
+  const Case shorter = quasiSteady("climb_printed", {{"flaps", "2"}, {"steps_per_flap", "400"}});
   ASSERT_TRUE(fly(shorter, {&other}).complete);
   EXPECT_NE(first.hash.hex(), other.hash.hex());
 }
 
 TEST(Federation, EveryStrategyFliesTheSameFlight) {
-  Case c = quasiSteady("climb", {{"flaps", "0.3"}, {"steps_per_flap", "500"}});
+  Case c = quasiSteady("climb_printed", {{"flaps", "0.3"}, {"steps_per_flap", "500"}});
   c.coupling.tolerance = 1e-10;
   c.coupling.load_tolerance = 1e-8;
   Recorder reference;
@@ -132,7 +132,7 @@ TEST(Federation, EveryStrategyFliesTheSameFlight) {
 // Navier-Stokes on a grid of a few thousand cells: loads predicted by the operator against a full
 // solve in every sub-iteration, and each of them against itself.
 TEST(Federation, NavierStokesFliesTheSameFlightByOperatorAndByFullSolves) {
-  Case c = loadCase("climb", {{"flaps", "0.06"}, {"steps_per_flap", "500"}}, CONFIG_DIR);
+  Case c = loadCase("climb_printed", {{"flaps", "0.06"}, {"steps_per_flap", "500"}}, CONFIG_DIR);
   c.grid.cells_per_chord = 5;
   c.grid.first_cell = 0.1;
   c.grid.far_field = 3.0;
@@ -160,7 +160,7 @@ TEST(Federation, NavierStokesFliesTheSameFlightByOperatorAndByFullSolves) {
 // The loads of the free flight move the whole insect: momentum of the system against loads and
 // weight.
 TEST(Federation, ImpulseOfAirAndWeightIsTheChangeOfMomentum) {
-  const Case c = quasiSteady("climb", {{"flaps", "1"}, {"steps_per_flap", "2000"}});
+  const Case c = quasiSteady("climb_printed", {{"flaps", "1"}, {"steps_per_flap", "2000"}});
   Recorder r;
   ASSERT_TRUE(fly(c, {&r}).complete);
   const Insect& insect = c.insect;
@@ -204,7 +204,7 @@ TEST(Federation, TetheredFlightLiftsAboutTheWeight) {
 }
 
 TEST(Federation, SinkThatFailsEndsTheRunWithItsMessage) {
-  const Case c = quasiSteady("climb", {{"flaps", "1"}, {"steps_per_flap", "200"}});
+  const Case c = quasiSteady("climb_printed", {{"flaps", "1"}, {"steps_per_flap", "200"}});
   Recorder failing, other;
   failing.throw_at = 5;
   const RunResult result = fly(c, {&failing, &other});
@@ -216,7 +216,7 @@ TEST(Federation, SinkThatFailsEndsTheRunWithItsMessage) {
 }
 
 TEST(Federation, SinkThatFailsAtTheEndIsKnownToThoseBehindIt) {
-  const Case c = quasiSteady("climb", {{"flaps", "1"}, {"steps_per_flap", "200"}});
+  const Case c = quasiSteady("climb_printed", {{"flaps", "1"}, {"steps_per_flap", "200"}});
   Recorder failing, other;
   failing.throw_at_end = "bag: disk full";
   const RunResult result = fly(c, {&failing, &other});
@@ -226,7 +226,7 @@ TEST(Federation, SinkThatFailsAtTheEndIsKnownToThoseBehindIt) {
 }
 
 TEST(Federation, StopEndsTheRunBeforeItsFirstStep) {
-  const Case c = quasiSteady("climb", {{"flaps", "1"}, {"steps_per_flap", "200"}});
+  const Case c = quasiSteady("climb_printed", {{"flaps", "1"}, {"steps_per_flap", "200"}});
   Recorder r;
   const StopFlag stop{true};
   const RunResult result = fly(c, {&r}, stop);
@@ -237,7 +237,7 @@ TEST(Federation, StopEndsTheRunBeforeItsFirstStep) {
 }
 
 TEST(Federation, MakesTheFluidThatTheCaseNames) {
-  const Case c = quasiSteady("climb", {});
+  const Case c = quasiSteady("climb_printed", {});
   EXPECT_EQ(makeFluid(c)->cells(), 0);
   const CoupledModel model = makeModel(c);
   EXPECT_EQ(model.steps, c.time.steps);

@@ -110,20 +110,20 @@ TEST_F(GuidedRun, ALedFlightIsFlownAgainFromItsTable) {
 TEST_F(GuidedRun, AReplayThatDoesNotFitIsRefused) {
   ASSERT_TRUE(fly(climb(), "short").complete);
   const std::string file = out("short") + "/flight.csv";
-  expectHas(faults("climb", {{"fluid", "quasi_steady"},
+  expectHas(faults("climb_printed", {{"fluid", "quasi_steady"},
                              {"flaps", "1"},
                              {"steps_per_flap", "100"},
                              {"guidance", "replay"},
                              {"guidance_file", file}}),
             "has 51 rows: must have one a level, 101");
-  expectHas(faults("climb", {{"fluid", "quasi_steady"},
+  expectHas(faults("climb_printed", {{"fluid", "quasi_steady"},
                              {"flaps", "0.2"},
                              {"steps_per_flap", "200"},
                              {"guidance", "replay"},
                              {"guidance_file", file}}),
             "column t = ");
-  expectHas(faults("climb", {{"guidance", "replay"}}), "guidance/rows is missing");
-  expectHas(faults("climb", {{"guidance", "wizard"}}),
+  expectHas(faults("climb_printed", {{"guidance", "replay"}}), "guidance/rows is missing");
+  expectHas(faults("climb_printed", {{"guidance", "wizard"}}),
             "guidance/type = 'wizard': must be one of motion, commands");
 }
 

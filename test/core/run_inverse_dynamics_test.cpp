@@ -40,7 +40,7 @@ class InverseDynamics : public CaseTest {
 };
 
 TEST_F(InverseDynamics, AFreeFlightNeedsNothingAndItsHingeIsFound) {
-  const Case c = fly("climb");
+  const Case c = fly("climb_printed");
   const auto rows = freeRows(c);
   ASSERT_GT(rows.size(), 80u);
   const double weight = c.insect.totalMass() * c.gravity;

@@ -59,7 +59,7 @@ TEST_F(Trim, PendulumRestsAndItsMultipliersAreExact) {
 
 TEST_F(Trim, MonarchFliesPeriodicallyFromThePrintedParameters) {
   const CaseOverrides overrides{{"fluid", "quasi_steady"}, {"steps_per_flap", "200"}};
-  const Case c = loadCase("climb", overrides, CONFIG_DIR);
+  const Case c = loadCase("climb_printed", overrides, CONFIG_DIR);
   TrimOptions options;
   options.newton.tolerance = 1e-5;
   std::ostringstream log;
@@ -87,7 +87,7 @@ TEST_F(Trim, MonarchFliesPeriodicallyFromThePrintedParameters) {
 
 TEST_F(Trim, ResultIsACaseThatFliesTheSameFlight) {
   const CaseOverrides overrides{{"fluid", "quasi_steady"}, {"steps_per_flap", "200"}};
-  const Case c = loadCase("climb", overrides, CONFIG_DIR);
+  const Case c = loadCase("climb_printed", overrides, CONFIG_DIR);
   TrimOptions options;
   options.start = FlapState();
   *options.start << 0.62, -0.45, 0.242, 16.3, 0.05, 16.8;
@@ -121,7 +121,7 @@ TEST_F(Trim, ResultIsACaseThatFliesTheSameFlight) {
 
 TEST_F(Trim, HorizonHoldsEveryFlapOfAnUnstableFlight) {
   const CaseOverrides overrides{{"fluid", "quasi_steady"}, {"steps_per_flap", "200"}};
-  const Case c = loadCase("climb", overrides, CONFIG_DIR);
+  const Case c = loadCase("climb_printed", overrides, CONFIG_DIR);
   TrimOptions options;
   std::ostringstream log;
   options.newton.tolerance = 1e-5;
@@ -191,7 +191,7 @@ TEST_F(Trim, WrongInputIsRefusedWithEveryFault) {
   expectHas(commandFaults({"fit:=kappa:2e-4:1e-4"}), "low must be below high");
   expectHas(commandFaults({"horizon:=3"}), "needs targets");
   expectHas(commandFaults({"fit:=kappa:1e-4:2e-4,kappa:1e-4:3e-4"}), "kappa is given twice");
-  EXPECT_EQ(commandFaults({"case:=climb", "fit:=kappa:1e-4:2e-4", "climb:=23.4"}), "");
+  EXPECT_EQ(commandFaults({"case:=climb_printed", "fit:=kappa:1e-4:2e-4", "climb:=23.4"}), "");
 }
 
 TEST_F(Trim, CasesThatCannotBeTrimmedAreRefused) {
@@ -209,7 +209,7 @@ TEST_F(Trim, CasesThatCannotBeTrimmedAreRefused) {
   options.parameters = {trimParameters()[3]};
   options.parameters[0].low = 1e-5;
   options.parameters[0].high = 1e-4;  // the case has 1.5e-4
-  expectHas(refusal("climb", options), "widen the range");
+  expectHas(refusal("climb_printed", options), "widen the range");
 }
 
 }  // namespace

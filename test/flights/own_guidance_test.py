@@ -56,11 +56,27 @@ class OwnGuidance(flying.FlightTest):
         for name in ("command_amplitude", "applied_deviation_mean"):
             self.assertTrue(any(row[columns.index(name)] for row in rows), name)
 
+    def test_joint_angles_of_its_own(self):
+        self.complete("led", *CLIMB, LED, "flaps:=0.8")
+        own = (*CLIMB, "flaps:=0.8", "guidance_node:=recorded_guidance.py")
+        environment = {"MONARCH_TEST_FLIGHT": self.out("led") + "/flight.csv"}
+        self.complete("own", *own, **environment)
+        self.assertEqual(self.sha("own"), self.sha("led"))
+        for fault, words in (("error", "RuntimeError: this level is meant to go wrong"),
+                             ("nan", "non-finite number")):
+            code, output = self.fly(*own, "out:=" + self.out(fault), **environment,
+                                    MONARCH_TEST_FAULT=fault + ":20")
+            self.assertNotIn(code, (0, 130), output)
+            summary = flying.summary(self.out(fault))
+            self.assertIn(words, summary["failure"])
+            self.assertIn("step 20", summary["failure"])
+            self.assertEqual(summary["steps"], 19)
+
     def test_the_example_holds_the_climb(self):
         """Of an insect whose periodic flight is another: it tumbles without."""
-        case = self.case(insect__abdomen__mass=1.72e-4)
-        self.complete("held", case, LED, "flaps:=8", "record:=false")
-        self.complete("tumbles", case, "flaps:=8", "record:=false", "in_process:=true")
+        case = self.case(insect__abdomen__mass=1.6e-4)
+        self.complete("held", case, LED, "flaps:=7", "record:=false")
+        self.complete("tumbles", case, "flaps:=7", "record:=false", "in_process:=true")
         self.assertGreater(self.largest_pitch("tumbles"), 60)
         self.assertLess(self.largest_pitch("held"), 60)
 
@@ -165,7 +181,7 @@ class OwnGuidance(flying.FlightTest):
                 (("guidance:=commands", "in_process:=true"), "guidance:=commands: needs the nodes"),
                 (("guidance:=replay",), "name the folder of the recorded flight by replay:="),
                 (("replay:=" + self.out("empty"),), "not the folder of a recorded flight"),
-                (("replay:=" + self.out("empty"), "case:=climb"), "give only one of them")):
+                (("replay:=" + self.out("empty"), "case:=climb_printed"), "give only one of them")):
             code, output = self.fly(*keys, "out:=" + self.out())
             self.assertEqual(code, 2, output)
             self.assertIn(words, output)

@@ -6,7 +6,7 @@ import unittest
 
 import flying
 
-KEYS = ("case:=climb", "fluid:=quasi_steady", "fluid_node:=drag_fluid.py", "flaps:=0.1",
+KEYS = ("case:=climb_printed", "fluid:=quasi_steady", "fluid_node:=drag_fluid.py", "flaps:=0.1",
         "steps_per_flap:=500")
 
 

@@ -5,7 +5,7 @@ import unittest
 
 import flying
 
-KEYS = ("case:=climb", "fluid:=quasi_steady", "in_process:=true", "record:=false")
+KEYS = ("case:=climb_printed", "fluid:=quasi_steady", "in_process:=true", "record:=false")
 
 
 class PlainWords(flying.FlightTest):

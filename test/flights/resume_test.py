@@ -10,7 +10,7 @@ import rosbag
 
 import flying
 
-KEYS = ("case:=climb", "fluid:=quasi_steady", "flaps:=1", "steps_per_flap:=400",
+KEYS = ("case:=climb_printed", "fluid:=quasi_steady", "flaps:=1", "steps_per_flap:=400",
         "checkpoint_every:=50")
 
 

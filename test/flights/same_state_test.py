@@ -20,7 +20,7 @@ COLUMNS += [kind + name for kind in ("command_", "applied_") for name in COMMAND
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/joint_states", "/diagnostics", "/monarch_flight/case",
     "/monarch_flight/state", "/monarch_flight/odom", "/monarch_flight/path",
-    "/monarch_flight/wrench/right_wing", "/monarch_flight/wrench/left_wing",
+    "/monarch_flight/wind", "/monarch_flight/wrench/right_wing", "/monarch_flight/wrench/left_wing",
     "/monarch_flight/wing_pressure", "/monarch_flight/iterations"}
 FILES = ["case.yaml", "checkpoints", "flight.bag", "flight.csv", "iterations.csv", "summary.json"]
 STEPS, PRESCRIBED, TOLERANCE = 500, 10, 1e-8
@@ -32,7 +32,7 @@ class SameState(flying.FlightTest):
     """One flight for all: the second is compared with the first."""
 
     def climb(self, name, *keys):
-        code, output = self.fly("case:=climb", "fluid:=quasi_steady", "flaps:=1",
+        code, output = self.fly("case:=climb_printed", "fluid:=quasi_steady", "flaps:=1",
                                 "steps_per_flap:=%d" % STEPS, "out:=" + self.out(name), *keys)
         self.assertEqual(code, 0, output)
         return output

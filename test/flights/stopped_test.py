@@ -6,7 +6,7 @@ import unittest
 
 import flying
 
-KEYS = ("case:=climb", "fluid:=quasi_steady")
+KEYS = ("case:=climb_printed", "fluid:=quasi_steady")
 NOTHING = "stopped by hand before the first step: nothing was flown"
 
 

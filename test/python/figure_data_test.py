@@ -96,13 +96,13 @@ class Runs(unittest.TestCase):
 
 class Sweep(unittest.TestCase):
     def test_cases(self):
-        shipped = yaml.safe_load((ROOT / "config/cases/climb.yaml").read_text(encoding="utf-8"))
+        shipped = yaml.safe_load((ROOT / "config/cases/climb_printed.yaml").read_text(encoding="utf-8"))
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            sweep.write_cases(ROOT / "config/cases/climb.yaml", "wing/mass=3.6e-5", folder)
+            sweep.write_cases(ROOT / "config/cases/climb_printed.yaml", "wing/mass=3.6e-5", folder)
             old = folder / "cases/climb_wing_mass_3.6e-5.yaml"
             before = old.stat().st_mtime_ns
-            sweep.write_cases(ROOT / "config/cases/climb.yaml", "wing/mass=3.6e-5,3.7e-5", folder)
+            sweep.write_cases(ROOT / "config/cases/climb_printed.yaml", "wing/mass=3.6e-5,3.7e-5", folder)
             self.assertEqual(old.stat().st_mtime_ns, before)  # not touched: Snakemake would fly it again
             changed = yaml.safe_load((folder / "cases/climb_wing_mass_3.7e-5.yaml").read_text(encoding="utf-8"))
             self.assertEqual(changed["insect"].pop("wing"), {"mass": 3.7e-5})

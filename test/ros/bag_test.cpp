@@ -26,13 +26,13 @@ class Bag : public testing::Test {
   static void SetUpTestSuite() {
     folder = new TemporaryFolder();
     Process flight(std::string(NODE_DIR) + "/fly_in_process",
-                   {"case:=climb", "fluid:=quasi_steady", "steps_per_flap:=240", "flaps:=0.5",
+                   {"case:=climb_printed", "fluid:=quasi_steady", "steps_per_flap:=240", "flaps:=0.5",
                     "out:=" + (*folder / "run")},
                    *folder / "flight.log");
     ASSERT_EQ(0, flight.wait(60.0)) << flight.output();
     ASSERT_FALSE(exists(*folder / "run/flight.bag.active"));
     bag = new rosbag::Bag(*folder / "run/flight.bag");
-    insect = new Case(loadCase("climb", {{"steps_per_flap", "240"}}, CONFIG_DIR));
+    insect = new Case(loadCase("climb_printed", {{"steps_per_flap", "240"}}, CONFIG_DIR));
   }
   static void TearDownTestSuite() {
     delete bag;
@@ -61,7 +61,7 @@ TEST_F(Bag, HoldsEveryTopicAsOftenAsExpected) {
   std::map<std::string, int> expected;
   for (const char* every_step :
        {topics::kClock, topics::kTf, topics::kJointStates, topics::kState, topics::kOdometry,
-        topics::kRightWrench, topics::kLeftWrench, topics::kIterations}) {
+        topics::kWind, topics::kRightWrench, topics::kLeftWrench, topics::kIterations}) {
     expected[every_step] = kSteps + 1;
   }
   expected[topics::kTfStatic] = 1;
@@ -224,8 +224,28 @@ TEST_F(Bag, TheCaseIsTheFileAndStaticTopicsAreLatched) {
   EXPECT_EQ(4, latched);  // tf_static, case, path, wing_pressure
 }
 
+TEST(PublishedWind, IsTheCommittedOneInEastNorthUp) {
+  const Case c = loadCase("climb", {{"fluid", "quasi_steady"}}, CONFIG_DIR);
+  FlightMessages messages(c);
+  CommittedStep step;
+  step.step = 3;
+  step.guided.wind.v = Eigen::Vector3d(0.3, -0.2, 0.1);
+  int found = 0;
+  for (const StampedMessage& m : messages.of(step)) {
+    if (m.topic != topics::kWind) continue;
+    const auto& wind = std::get<geometry_msgs::Vector3Stamped>(m.message);
+    EXPECT_EQ("world", wind.header.frame_id);
+    EXPECT_EQ(stampOf(3, c.time), wind.header.stamp);
+    EXPECT_EQ(-0.2, wind.vector.x);
+    EXPECT_EQ(0.3, wind.vector.y);
+    EXPECT_EQ(-0.1, wind.vector.z);
+    ++found;
+  }
+  EXPECT_EQ(1, found);
+}
+
 TEST(LongPath, StaysBoundedAndKeepsItsBeginning) {
-  Case c = loadCase("climb", {{"fluid", "quasi_steady"}, {"steps_per_flap", "320"}}, CONFIG_DIR);
+  Case c = loadCase("climb_printed", {{"fluid", "quasi_steady"}, {"steps_per_flap", "320"}}, CONFIG_DIR);
   FlightMessages messages(c);
   std::size_t poses = 0, published = 0, bytes = 0;
   for (std::uint32_t step = 0; step <= 320 * 100; ++step) {
@@ -257,7 +277,7 @@ TEST(FullDisk, LeavesTheBagUnderItsActiveName) {
   signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &small);
   Process flight(std::string(NODE_DIR) + "/fly_in_process",
-                 {"case:=climb", "fluid:=quasi_steady", "flaps:=20", "out:=" + (folder / "run")},
+                 {"case:=climb_printed", "fluid:=quasi_steady", "flaps:=20", "out:=" + (folder / "run")},
                  folder / "flight.log");
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(1, flight.wait(30.0));

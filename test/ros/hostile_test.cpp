@@ -117,7 +117,7 @@ TEST_F(Nodes, HostileMessagesLeaveNoTraceInTheFlight) {
   const nlohmann::json attacked = summary();
   const int steps = attacked["steps"];
   Process alone(std::string(NODE_DIR) + "/fly_in_process",
-                {"case:=climb", "fluid:=quasi_steady", "flaps:=" + std::to_string(steps / 500.0),
+                {"case:=climb_printed", "fluid:=quasi_steady", "flaps:=" + std::to_string(steps / 500.0),
                  "record:=false", "out:=" + (folder / "alone")},
                 folder / "alone.log");
   EXPECT_EQ(0, alone.wait(60.0 + 0.05 * messages)) << alone.output();

@@ -17,7 +17,7 @@ class Nodes : public testing::Test {
   Nodes() {
     setenv("MONARCH_FLIGHT_TOKEN", "token of the tests", 1);
     ros::param::del("/monarch_flight");
-    ros::param::set("/monarch_flight/case", "climb");
+    ros::param::set("/monarch_flight/case", "climb_printed");
     ros::param::set("/monarch_flight/fluid", "quasi_steady");
     ros::param::set("/monarch_flight/flaps", 0.1);
     ros::param::set("/monarch_flight/out", folder / "run");

@@ -65,7 +65,7 @@ TEST(RunParameters, EveryFaultIsNamedAtOnce) {
 TEST(RunParameters, NothingSetMeansTheShippedFlight) {
   XmlRpc::XmlRpcValue none;
   const RunParameters p = runParameters(none, "/monarch_flight/");
-  EXPECT_EQ("climb", p.name);
+  EXPECT_EQ("climb_controlled", p.name);
   EXPECT_TRUE(p.overrides.empty());
   EXPECT_EQ(0.0, p.watchdog_s);
 }

@@ -18,7 +18,7 @@
 namespace monarch_flight {
 namespace {
 
-Case climb() { return loadCase("climb", {{"fluid", "quasi_steady"}}, CONFIG_DIR); }
+Case climb() { return loadCase("climb_printed", {{"fluid", "quasi_steady"}}, CONFIG_DIR); }
 
 /// Numbers of a text by position, and the text without them.
 std::pair<std::vector<double>, std::string> numbersOf(const std::string& text) {

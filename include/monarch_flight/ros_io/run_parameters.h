@@ -13,7 +13,7 @@ namespace monarch_flight {
 /// What a person may set for a run, on the command line (key:=value) or as ROS parameters of the
 /// namespace /monarch_flight; an empty text means not given.
 struct RunParameters {
-  std::string name = "climb";  ///< `case`: name or path of the case file
+  std::string name = "climb_controlled";  ///< `case`: name or path of the case file
   std::string out;             ///< folder of the results; empty: flights/<case>-<time>
   std::string resume;          ///< folder of a run to go on with; empty: a new run
   std::string directory;       ///< where relative paths start; empty: the working directory

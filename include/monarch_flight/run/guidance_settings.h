@@ -17,6 +17,9 @@ enum class GuidanceKind {
   kReplay       ///< as in a recorded flight
 };
 
+/// As in a case.
+const char* guidanceName(GuidanceKind kind);
+
 struct GuidanceSettings {
   GuidanceKind kind = GuidanceKind::kMotion;
   WingbeatSettings wingbeat;                   ///< unless kMotion or kReplay

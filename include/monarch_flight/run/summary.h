@@ -53,6 +53,8 @@ class Summary {
   Case case_;
   TimeGrid time_;
   std::uint32_t tumbled_ = kNever;  // step
+  GuidanceReport guidance_;         // of the last step
+  std::uint32_t lost_ = kNever;     // step at which the controller gave up
   std::chrono::steady_clock::time_point begin_;
   std::uint32_t steps_ = 0;
   std::uint64_t whole_flaps_ = 0;

@@ -11,7 +11,7 @@ namespace monarch_flight {
 
 /// What `scripts/trim` was asked for.
 struct TrimCommand {
-  std::string case_name = "climb";
+  std::string case_name = "climb_printed";
   CaseOverrides overrides;  ///< fluid, grid, steps_per_flap
   TrimOptions options;
   std::string out;                        ///< case file to write; empty: none

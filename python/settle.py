@@ -1,0 +1,183 @@
+"""Whether a flight that is led has settled, and the case of its periodic flight (scripts/settle, docs/trim.md)."""
+import dataclasses
+import math
+import pathlib
+import re
+import sys
+
+import numpy as np
+
+import case_files
+import settled_case
+from led_flight import ANGLE, COMMANDS, LedFlight, Unfit, shown
+
+
+@dataclasses.dataclass
+class Bounds:
+    """What settled means, over the last `flaps` flaps."""
+    flaps: int = 3
+    repeat: float = 0.02  # largest scaled change of the state over a flap
+    angle: float = 0.1  # largest change of a command's mean from flap to flap, of an angle [deg]
+    relative: float = 0.002  # of a relative command
+
+    def of(self, name):
+        """For a command's mean, in its own unit (rad or relative)."""
+        return math.radians(self.angle) if COMMANDS[name] == ANGLE else self.relative
+
+
+@dataclasses.dataclass
+class Verdict:
+    """Largest changes over the last flaps; `reasons`: why it has not settled, empty when it has."""
+    flaps: list  # those judged
+    change: float
+    command_changes: dict
+    reasons: list
+
+    def mean(self, name):
+        return float(np.mean([flap.means[name] for flap in self.flaps]))
+
+    @property
+    def means(self):
+        """Of every command over the flaps judged."""
+        return {name: self.mean(name) for name in COMMANDS}
+
+    @property
+    def span(self):
+        first, last = self.flaps[0].number, self.flaps[-1].number
+        return f"flap {first}" if first == last else f"flaps {first} to {last}"
+
+
+def judge(flight, bounds):
+    """Each of the last flaps against itself one flap later, its mean commands against those of the flap before."""
+    judged = flight.flaps[-bounds.flaps:]
+    free = sum(flap.free for flap in flight.flaps)
+    reasons = []
+    if free <= bounds.flaps:
+        reasons.append(f"it has {free} whole free flaps: flaps:={bounds.flaps} needs {bounds.flaps + 1}")
+    change = float(np.max([flap.change for flap in judged]))  # NaN stays
+    if not change <= bounds.repeat:
+        reasons.append(f"a flap repeats within {change:.3g} (scaled): must be {bounds.repeat:g}")
+    before = flight.flaps[-bounds.flaps - 1:-1]
+    changes = {name: float(np.max([0.0] + [abs(b.means[name] - a.means[name]) for a, b in zip(before, flight.flaps[-len(before):])]))
+               for name in flight.used}
+    for name, value in changes.items():
+        if not value <= bounds.of(name):
+            reasons.append(f"the mean of {name} changes by {shown(name, value):.3g} {COMMANDS[name]} a flap: "
+                           f"must be {shown(name, bounds.of(name)):.3g}")
+    if flight.lost_from() is not None:
+        reasons.append(f"the controller gave up in flap {flight.lost_from()}")
+    return Verdict(judged, change, changes, reasons)
+
+
+def head(flight):
+    air = flight.case["fluid"]["solver"].replace("_", "-")
+    text = f"{flight.folder}: {flight.case['name']}, {air} air, led by {flight.kind}"
+    for flap, speed, climb in flight.set_points():
+        text += f"\nset point from flap {flap + 1:g} on: {speed:.4g} m/s, climb {climb:.4g} deg"
+    return text
+
+
+def table(flight):
+    """A line per flap."""
+    yield ("flap  speed m/s  climb deg  theta_B mean, swing deg  "
+           + "".join(f"{f'{name} {COMMANDS[name]} mean, from, to':>41s}" for name in flight.used) + f"{'change':>10s}")
+    for flap in flight.flaps:
+        commands = "".join(f"{shown(name, flap.means[name]):>21.3f} {shown(name, flap.lows[name]):>9.3f} "
+                           f"{shown(name, flap.highs[name]):>9.3f}" for name in flight.used)
+        yield (f"{flap.number:4d}{flap.speed:11.4f}{math.degrees(flap.climb):11.3f}{math.degrees(flap.theta_B_mean):16.2f}"
+               f"{math.degrees(flap.theta_B_swing):9.2f}  {commands}{flap.change:10.2g}" + ("" if flap.free else "  prescribed"))
+
+
+def mean_commands(flight, verdict):
+    return ", ".join(f"{name} {shown(name, verdict.mean(name)):+.4f} {COMMANDS[name]}" for name in flight.used) or "none"
+
+
+def words(flight, verdict, bounds):
+    """The verdict in sentences."""
+    yield f"mean commands of {verdict.span}: {mean_commands(flight, verdict)}"
+    rows = slice(verdict.flaps[0].first, verdict.flaps[-1].last + 1)
+    cut = np.ptp(flight.columns["clipped"][rows])
+    if cut:
+        yield f"note: {cut:.0f} commands of these flaps were cut to their bounds"
+    if verdict.reasons:
+        yield "not settled: " + "\n             ".join(verdict.reasons)
+        return
+    means = ", ".join(f"{name} by {shown(name, value):.2g} (bound {shown(name, bounds.of(name)):.2g} {COMMANDS[name]})"
+                      for name, value in verdict.command_changes.items())
+    yield (f"settled: in {verdict.span} a flap repeats within {verdict.change:.2g} (bound {bounds.repeat:g}, scaled)"
+           + (f"; from flap to flap the means change at most: {means}" if means else ""))
+
+
+def number(values, key, low, faults):
+    """values[key] above `low`, or a fault."""
+    try:
+        value = float(values[key])
+    except ValueError:
+        value = math.nan
+    if not value > low or math.isinf(value):
+        faults.append(f"{key}:={values[key]}: must be a number > {low}; correct it")
+    return value
+
+
+def settings_from(arguments):
+    """Folder, bounds, path of the case to write (or None)."""
+    values = dict(flaps="3", repeat="0.02", angle="0.1", relative="0.002", out="")
+    folders, faults = [], []
+    for argument in arguments:
+        key, separator, value = argument.partition(":=")
+        if not separator:
+            folders.append(pathlib.Path(argument))
+        elif key in values and value:
+            values[key] = value
+        else:
+            faults.append(f"'{argument}': unknown or empty key; must be one of {', '.join(values)}")
+    if len(folders) != 1:
+        faults.append(f"{len(folders)} folders given: must be one, that of a flight that was led; as flights/climb_controlled")
+    if not re.fullmatch("[1-9][0-9]*", values["flaps"]):
+        faults.append(f"flaps:={values['flaps']}: must be a whole number > 0; 3 is usual")
+        values["flaps"] = "3"
+    bounds = Bounds(int(values["flaps"]), *(number(values, key, 0, faults) for key in ("repeat", "angle", "relative")))
+    out = pathlib.Path(values["out"]) if values["out"] else None
+    if out is not None and (out.suffix != ".yaml" or not re.fullmatch(r"[A-Za-z0-9_.-]{1,200}", out.stem)):
+        faults.append(f"out:={out}: must end in .yaml, its name of letters, digits and _ - . only; it names the case")
+    if out is not None and out.exists():
+        faults.append(f"out:={out}: exists already; name another file or move that one away")
+    if faults:
+        raise Unfit(*faults)
+    return folders[0], bounds, out
+
+
+def write(flight, verdict, out):
+    """The case of the periodic flight; a file is there whole or not at all."""
+    content, comments, heading = settled_case.settled(flight, verdict, out.stem)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    active = out.with_name(out.name + ".active")
+    active.write_text(heading + case_files.text(content, comments), encoding="utf-8")
+    active.rename(out)
+
+
+def main(arguments):
+    """Exit code: 0 settled (and written), 1 not settled, 2 refused."""
+    try:
+        folder, bounds, out = settings_from(arguments)
+        flight = LedFlight(folder)
+        if flight.kind not in ("controller", "commands", "node"):
+            raise Unfit(f"{folder}: guidance/type = {flight.kind}: must be controller, commands or node, by which a flight is led; "
+                        "give the folder of such a flight")
+        if not flight.flaps:
+            raise Unfit(f"{folder}: holds no whole flap; fly more")
+        if out is not None:
+            settled_case.check(flight)
+    except Unfit as unfit:
+        print("\n".join(f"settle: {fault}" for fault in unfit.faults), file=sys.stderr)
+        return 2
+    verdict = judge(flight, bounds)
+    print(head(flight), *table(flight), *words(flight, verdict, bounds), sep="\n")
+    if verdict.reasons:
+        if out is not None:
+            print(f"settle: out:={out}: not written, for the flight has not settled; fly more flaps, or give wider bounds")
+        return 1
+    if out is not None:
+        write(flight, verdict, out)
+        print(f"case: {out}")
+    return 0

@@ -1,0 +1,43 @@
+#!/usr/bin/python3
+"""Guidance with joint angles of its own: those of the flight.csv that MONARCH_TEST_FLIGHT names. A
+level that is called by MONARCH_TEST_FAULT, as nan:20 or error:20, goes wrong."""
+import csv
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "examples"))
+from monarch_flight.msg import JointMotion, PrescribedLevel  # noqa: E402
+from solver_node import SolverNode  # noqa: E402
+
+
+class Recorded:
+    def start(self, case, request):
+        with open(os.environ["MONARCH_TEST_FLIGHT"], newline="") as f:
+            self.rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
+        self.fault, _, step = os.environ.get("MONARCH_TEST_FAULT", "none:-1").partition(":")
+        self.step = int(step)
+        return self.level(0)
+
+    def prescribe(self, request):
+        level = self.level(request.key.step)
+        if request.key.step == self.step:
+            if self.fault == "error":
+                raise RuntimeError("this level is meant to go wrong")
+            level.phi.velocity = float("nan")
+        return level
+
+    def level(self, step):
+        row = self.rows[step]
+
+        def joint(name):
+            return [row[name], row[name + "_dot"], row[name + "_ddot"]]
+
+        level = PrescribedLevel(phi=JointMotion(*joint("phi")), psi=JointMotion(*joint("psi")),
+                                theta_a=JointMotion(*joint("theta_A")),
+                                rest_angle=row["rest_angle"])
+        level.interface.theta_r = joint("theta_R")
+        return level
+
+
+if __name__ == "__main__":
+    sys.exit(SolverNode("guidance", Recorded()).serve())
