@@ -163,6 +163,7 @@ class OwnGuidance(flying.FlightTest):
         process.send_signal(signal.SIGINT)
         code, output = self.finish(process, LIMIT)
         self.assertEqual(code, 130, output)
+        self.assertIn("goes on with scripts/fly %s %s" % (resume, LED), output)
         self.assertRegex(flying.summary(self.out())["failure"],
                          r"^interrupted in step \d+; step \d+ is the last one committed$")
 
