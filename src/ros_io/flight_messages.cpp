@@ -61,6 +61,14 @@ sensor_msgs::JointState jointState(const JointAngles& a, bool bare_wing, const r
   return out;
 }
 
+geometry_msgs::Vector3Stamped wind(const Wind& met, const ros::Time& stamp) {
+  geometry_msgs::Vector3Stamped out;
+  out.header.stamp = stamp;
+  out.header.frame_id = frames::kWorld;
+  out.vector = toVector3(nedToEnu() * met.v);
+  return out;
+}
+
 // `right`: loads on the right wing.
 geometry_msgs::WrenchStamped wrench(const Loads& right, bool left, const ros::Time& stamp) {
   const Loads loads = left ? mirrored(right) : right;
@@ -151,6 +159,7 @@ std::vector<StampedMessage> FlightMessages::topics() const {
       prototype<FlightState>(topics::kState),
       prototype<nav_msgs::Odometry>(topics::kOdometry),
       prototype<nav_msgs::Path>(topics::kPath, true),
+      prototype<geometry_msgs::Vector3Stamped>(topics::kWind),
       prototype<geometry_msgs::WrenchStamped>(topics::kRightWrench),
       prototype<visualization_msgs::MarkerArray>(topics::kPressure, true),
       prototype<sensor_msgs::PointCloud2>(topics::kVortices),
@@ -174,7 +183,7 @@ std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
   const ros::Time stamp = stampOf(step.step, case_.time);
   const bool bare = case_.insect.bare_wing;
   std::vector<StampedMessage> out;
-  out.reserve(12);
+  out.reserve(13);
   rosgraph_msgs::Clock clock;
   clock.clock = stamp;
   tf2_msgs::TFMessage moving;
@@ -184,6 +193,7 @@ std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
   out.push_back({topics::kJointStates, stamp, jointState(step.angles, bare, stamp)});
   out.push_back({topics::kState, stamp, flightState(step, stamp)});
   out.push_back({topics::kOdometry, stamp, odometry(step.interface.body, stamp)});
+  out.push_back({topics::kWind, stamp, wind(step.guided.wind, stamp)});
   out.push_back({topics::kRightWrench, stamp, wrench(step.loads, false, stamp)});
   if (!bare) out.push_back({topics::kLeftWrench, stamp, wrench(step.loads, true, stamp)});
   out.push_back({topics::kIterations, stamp, iterations(step, stamp)});

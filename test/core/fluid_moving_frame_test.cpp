@@ -2,6 +2,8 @@
 // air at rest, Stokes' second problem.
 #include <gtest/gtest.h>
 
+#include "monarch_flight/insect/prescribed_motion.h"
+
 #include "core/fluid_flapping.h"
 #include "fluid/flow.h"
 

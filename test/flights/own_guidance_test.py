@@ -12,7 +12,8 @@ import yaml
 
 import flying
 
-CLIMB = ("case:=climb_trimmed", "fluid:=quasi_steady")
+AIR = ("fluid:=quasi_steady", "steps_per_flap:=100")
+CLIMB = ("case:=climb_trimmed", *AIR)
 LED = "guidance_node:=climb_guidance.py"
 LIMIT = 60.0  # seconds
 
@@ -33,8 +34,8 @@ class OwnGuidance(flying.FlightTest):
             yaml.safe_dump(case, f)
         return "case:=" + path
 
-    def complete(self, name, *keys, **environment):
-        code, output = self.fly(*keys, "out:=" + self.out(name), **environment)
+    def complete(self, name, *keys, **more):
+        code, output = self.fly(*keys, "out:=" + self.out(name), **more)
         self.assertEqual(code, 0, output)
         self.assertEqual(flying.summary(self.out(name))["status"], "complete", output)
 
@@ -43,7 +44,7 @@ class OwnGuidance(flying.FlightTest):
 
     def test_the_example_flies_twice_the_same_and_is_flown_again(self):
         for name in ("first", "second"):
-            self.complete(name, *CLIMB, LED, "flaps:=1.6")
+            self.complete(name, *CLIMB, LED, "flaps:=2")
         replay = "replay:=" + self.out("first")
         self.complete("again", replay, "in_process:=true")
         self.complete("again_by_nodes", replay)
@@ -57,8 +58,8 @@ class OwnGuidance(flying.FlightTest):
             self.assertTrue(any(row[columns.index(name)] for row in rows), name)
 
     def test_joint_angles_of_its_own(self):
-        self.complete("led", *CLIMB, LED, "flaps:=0.8")
-        own = (*CLIMB, "flaps:=0.8", "guidance_node:=recorded_guidance.py")
+        self.complete("led", *CLIMB, LED, "flaps:=1")
+        own = (*CLIMB, "flaps:=1", "guidance_node:=recorded_guidance.py")
         environment = {"MONARCH_TEST_FLIGHT": self.out("led") + "/flight.csv"}
         self.complete("own", *own, **environment)
         self.assertEqual(self.sha("own"), self.sha("led"))
@@ -74,9 +75,9 @@ class OwnGuidance(flying.FlightTest):
 
     def test_the_example_holds_the_climb(self):
         """Of an insect whose periodic flight is another: it tumbles without."""
-        case = self.case(insect__abdomen__mass=1.72e-4)
-        self.complete("held", case, LED, "flaps:=8", "record:=false")
-        self.complete("tumbles", case, "flaps:=8", "record:=false", "in_process:=true")
+        case = self.case(insect__abdomen__mass=1.6e-4)
+        self.complete("held", case, *AIR, LED, "flaps:=7", "record:=false", limit=240)
+        self.complete("tumbles", case, *AIR, "flaps:=7", "record:=false", "in_process:=true")
         self.assertGreater(self.largest_pitch("tumbles"), 60)
         self.assertLess(self.largest_pitch("held"), 60)
 
@@ -108,7 +109,7 @@ class OwnGuidance(flying.FlightTest):
         return summary["failure"]
 
     def test_killed(self):
-        process, pids = self.airborne(*CLIMB, "flaps:=200")
+        process, pids = self.airborne(*CLIMB, "flaps:=500")
         os.kill(pids["guidance"], signal.SIGKILL)
         self.assertRegex(self.failure(process),
                          r"^the guidance node \(/monarch_flight/guidance\) is lost .*step \d+")
@@ -116,15 +117,15 @@ class OwnGuidance(flying.FlightTest):
 
     def test_hangs(self):
         """Found by the watchdog, here 3 s. What hangs for a shorter time is waited for."""
-        process, pids = self.airborne(self.case(watchdog_s=3), "flaps:=200")
+        process, pids = self.airborne(self.case(watchdog_s=3), *AIR, "flaps:=500")
         self.addCleanup(self.go_on, pids["guidance"])
         os.kill(pids["guidance"], signal.SIGSTOP)
         self.assertRegex(self.failure(process), r"^the guidance node .* did not answer step \d+, "
                          r"sub-iteration 0, (ITERATE|COMMIT) within 3\.0 s \(watchdog\)")
 
     def test_late(self):
-        self.complete("prompt", *CLIMB, LED, "flaps:=1.6")
-        process, pids = self.airborne(*CLIMB, "flaps:=1.6", MONARCH_ANSWER_DELAY_MS="4")
+        self.complete("prompt", *CLIMB, LED, "flaps:=2")
+        process, pids = self.airborne(*CLIMB, "flaps:=2", MONARCH_ANSWER_DELAY_MS="4")
         self.addCleanup(self.go_on, pids["guidance"])
         os.kill(pids["guidance"], signal.SIGSTOP)
         time.sleep(1.5)
@@ -142,7 +143,7 @@ class OwnGuidance(flying.FlightTest):
 
     def test_killed_and_interrupted_flights_go_on(self):
         """Ctrl-C comes within a step, when guidance has prescribed the next level already."""
-        keys = (*CLIMB, "flaps:=1.6", "checkpoint_every:=50")
+        keys = (*CLIMB, "flaps:=3", "checkpoint_every:=50")
         self.complete("whole", *keys, LED)
         process = self.start(*keys, LED, "out:=" + self.out(), MONARCH_ANSWER_DELAY_MS="6")
         self.wait_for(lambda: glob.glob(self.out() + "/checkpoints/step_*0"), 120,
@@ -162,6 +163,7 @@ class OwnGuidance(flying.FlightTest):
         process.send_signal(signal.SIGINT)
         code, output = self.finish(process, LIMIT)
         self.assertEqual(code, 130, output)
+        self.assertIn("goes on with scripts/fly %s %s" % (resume, LED), output)
         self.assertRegex(flying.summary(self.out())["failure"],
                          r"^interrupted in step \d+; step \d+ is the last one committed$")
 

@@ -20,7 +20,7 @@ COLUMNS += [kind + name for kind in ("command_", "applied_") for name in COMMAND
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/joint_states", "/diagnostics", "/monarch_flight/case",
     "/monarch_flight/state", "/monarch_flight/odom", "/monarch_flight/path",
-    "/monarch_flight/wrench/right_wing", "/monarch_flight/wrench/left_wing",
+    "/monarch_flight/wind", "/monarch_flight/wrench/right_wing", "/monarch_flight/wrench/left_wing",
     "/monarch_flight/wing_pressure", "/monarch_flight/iterations"}
 FILES = ["case.yaml", "checkpoints", "flight.bag", "flight.csv", "iterations.csv", "summary.json"]
 STEPS, PRESCRIBED, TOLERANCE = 500, 10, 1e-8

@@ -61,7 +61,7 @@ TEST_F(Bag, HoldsEveryTopicAsOftenAsExpected) {
   std::map<std::string, int> expected;
   for (const char* every_step :
        {topics::kClock, topics::kTf, topics::kJointStates, topics::kState, topics::kOdometry,
-        topics::kRightWrench, topics::kLeftWrench, topics::kIterations}) {
+        topics::kWind, topics::kRightWrench, topics::kLeftWrench, topics::kIterations}) {
     expected[every_step] = kSteps + 1;
   }
   expected[topics::kTfStatic] = 1;
@@ -222,6 +222,26 @@ TEST_F(Bag, TheCaseIsTheFileAndStaticTopicsAreLatched) {
     if (found != connection->header->end() && found->second == "1") ++latched;
   }
   EXPECT_EQ(4, latched);  // tf_static, case, path, wing_pressure
+}
+
+TEST(PublishedWind, IsTheCommittedOneInEastNorthUp) {
+  const Case c = loadCase("climb", {{"fluid", "quasi_steady"}}, CONFIG_DIR);
+  FlightMessages messages(c);
+  CommittedStep step;
+  step.step = 3;
+  step.guided.wind.v = Eigen::Vector3d(0.3, -0.2, 0.1);
+  int found = 0;
+  for (const StampedMessage& m : messages.of(step)) {
+    if (m.topic != topics::kWind) continue;
+    const auto& wind = std::get<geometry_msgs::Vector3Stamped>(m.message);
+    EXPECT_EQ("world", wind.header.frame_id);
+    EXPECT_EQ(stampOf(3, c.time), wind.header.stamp);
+    EXPECT_EQ(-0.2, wind.vector.x);
+    EXPECT_EQ(0.3, wind.vector.y);
+    EXPECT_EQ(-0.1, wind.vector.z);
+    ++found;
+  }
+  EXPECT_EQ(1, found);
 }
 
 TEST(LongPath, StaysBoundedAndKeepsItsBeginning) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/Vector3Stamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <monarch_flight/FlightState.h>
 #include <monarch_flight/StepIterations.h>
@@ -35,6 +36,7 @@ constexpr char kCase[] = "/monarch_flight/case";
 constexpr char kState[] = "/monarch_flight/state";
 constexpr char kOdometry[] = "/monarch_flight/odom";
 constexpr char kPath[] = "/monarch_flight/path";
+constexpr char kWind[] = "/monarch_flight/wind";
 constexpr char kRightWrench[] = "/monarch_flight/wrench/right_wing";
 constexpr char kLeftWrench[] = "/monarch_flight/wrench/left_wing";
 constexpr char kPressure[] = "/monarch_flight/wing_pressure";
@@ -45,8 +47,9 @@ constexpr char kIterations[] = "/monarch_flight/iterations";
 using FlightMessage =
     std::variant<rosgraph_msgs::Clock, tf2_msgs::TFMessage, sensor_msgs::JointState,
                  diagnostic_msgs::DiagnosticArray, std_msgs::String, FlightState,
-                 nav_msgs::Odometry, nav_msgs::Path, geometry_msgs::WrenchStamped,
-                 visualization_msgs::MarkerArray, sensor_msgs::PointCloud2, StepIterations>;
+                 nav_msgs::Odometry, nav_msgs::Path, geometry_msgs::Vector3Stamped,
+                 geometry_msgs::WrenchStamped, visualization_msgs::MarkerArray,
+                 sensor_msgs::PointCloud2, StepIterations>;
 
 /// A message with its place and time: what is published and what is recorded are the same.
 struct StampedMessage {
