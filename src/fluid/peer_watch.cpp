@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -110,7 +111,7 @@ bool PeerWatch::tooLong() const {
   return false;
 }
 
-std::string PeerWatch::culprit() const {
+PeerWatch::Culprit PeerWatch::culprit() const {
   const long enough = ticksOf(limit_s_) / 2;
   const auto longest = [&](const auto& ticks) {  // the slot with the most, if these are enough
     int worst = -1;
@@ -119,27 +120,33 @@ std::string PeerWatch::culprit() const {
       const long now = i == board_.ownIndex() ? -1 : ticks(i);
       if (now > most) worst = i, most = now;
     }
-    return worst < 0 ? std::string() : "process " + std::to_string(board_.at(worst).rank);
+    return worst;
+  };
+  const auto hangs = [&](int i, const char* how) {
+    return Culprit{"process " + std::to_string(board_.at(i).rank) + ", which hangs: " + how,
+                   board_.at(i).pid};
   };
   const auto seen = [&](int i) { return seen_[static_cast<std::size_t>(i)]; };
-  std::string name = longest([&](int i) { return seen(i).silent; });
-  if (!name.empty()) return name + ", which hangs: it gives no sign of life";
-  name = longest([&](int i) { return waiting(seen(i).moves) ? -1 : seen(i).still; });
-  if (!name.empty()) return name + ", which hangs: it runs, but did not come";
+  int one = longest([&](int i) { return seen(i).silent; });
+  if (one >= 0) return hangs(one, "it gives no sign of life");
+  one = longest([&](int i) { return waiting(seen(i).moves) ? -1 : seen(i).still; });
+  if (one >= 0) return hangs(one, "it runs, but did not come");
   const std::uint64_t calls = board_.own().calls.load(std::memory_order_relaxed);
-  name = longest([&](int i) { return board_.at(i).calls < calls ? seen(i).still : -1; });
-  if (!name.empty()) return name + ", which hangs: it did not take up the call";
+  one = longest([&](int i) { return board_.at(i).calls < calls ? seen(i).still : -1; });
+  if (one >= 0) return hangs(one, "it did not take up the call");
   const int peer = board_.own().peer.load(std::memory_order_relaxed);
-  if (peer >= 0) return "process " + std::to_string(peer) + ", which did not come";
-  return "the others; none that hangs is on this machine";
+  if (peer >= 0) return {"process " + std::to_string(peer) + ", which did not come"};
+  return {"the others; none that hangs is on this machine"};
 }
 
 /// In one piece, so that no other process writes into it. MPI is the main thread's.
 void PeerWatch::giveUp() const {
+  const Culprit one = culprit();
   std::ostringstream text;
-  text << "process " << board_.own().rank << " of the flow has waited in vain for " << culprit()
+  text << "process " << board_.own().rank << " of the flow has waited in vain for " << one.text
        << " (limit of the wait " << limit_s_ * times_ << " s); all of them end\n";
   std::cerr << text.str() << std::flush;
+  if (one.pid > 0) kill(one.pid, SIGKILL);
   _exit(1);
 }
 

@@ -15,7 +15,8 @@ namespace monarch_flight {
 
 /// Sees to it that no process of the flow waits for ever for another one that hangs. A thread of
 /// each process counts how long the main thread has been in one wait (`PeerWait`); past the limit
-/// it says which process did not come, and ends its own with exit code 1, on which mpirun ends them
+/// it says which process did not come, ends that one if it is on this machine (mpirun may be gone
+/// before it has ended one that is stopped) and its own with exit code 1, on which mpirun ends them
 /// all. It never calls MPI, and time in which the whole process is stopped does not count.
 class PeerWatch {
  public:
@@ -44,8 +45,13 @@ class PeerWatch {
   void look();
   bool tooLong() const;
   [[noreturn]] void giveUp() const;
-  /// The process that keeps this one waiting and how that shows, in words.
-  std::string culprit() const;
+  /// The process that keeps this one waiting: how that shows, in words; its id if it is on this
+  /// machine, else 0.
+  struct Culprit {
+    std::string text;
+    int pid = 0;
+  };
+  Culprit culprit() const;
 
   WatchBoard board_;
   std::vector<Seen> seen_;  ///< of each slot, by the thread

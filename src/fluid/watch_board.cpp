@@ -64,6 +64,7 @@ WatchBoard::WatchBoard(MPI_Comm comm) {
     if (slots_ == nullptr) throw std::bad_alloc();
   }
   own().rank = rank;
+  own().pid = getpid();
   MPI_Barrier(here);  // until all have said who they are
   MPI_Comm_free(&here);
 }

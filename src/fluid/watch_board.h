@@ -15,7 +15,7 @@ struct alignas(64) WatchSlot {
   std::atomic<std::uint64_t> moves;  ///< odd: within a wait, even: computing
   std::atomic<std::uint64_t> calls;  ///< of process 0 that were taken up
   std::atomic<int> peer;             ///< waited for: rank, kEverybody, or kCall: process 0's next
-  int rank;
+  int rank, pid;
 };
 
 /// The slots of all processes of one machine, in memory that they share.

@@ -8,9 +8,6 @@ import unittest
 import flying
 
 LIMIT = 60.0  # seconds
-WATCHDOG = 10.0  # seconds
-# The coordinator leaves when the fluid is lost, and may be gone before mpirun is.
-NODE_DIED = "fly: the node monarch_flight/(fluid|coordinator) died"
 
 
 def processes_of(folder, program):
@@ -41,14 +38,14 @@ def running(pid):
 
 
 class LostRank(flying.FlightTest):
-    def airborne(self, program, *keys):
+    def airborne(self, program, *keys, watchdog=60.0):
         with open(os.path.join(flying.ROOT, "config", "cases", "tethered_fwuav.yaml")) as f:
             text = f.read()
         self.assertEqual(text.count("\ngrid:"), 1)
         case = os.path.join(self.folder, "small.yaml")
         head, rest = text.split("\ngrid:\n")
         with open(case, "w") as f:  # a grid that two processes fly in no time
-            f.write(head + "\ngrid:\n  cells_per_chord: 6\n  far_field: 3\n" + rest + "\nwatchdog_s: %g\n" % WATCHDOG)
+            f.write(head + "\ngrid:\n  cells_per_chord: 6\n  far_field: 3\n" + rest + "\nwatchdog_s: %g\n" % watchdog)
         process = self.start("case:=" + case, "flaps:=100", "ranks:=2", "out:=" + self.out(), *keys)
         table = os.path.join(self.out(), "flight.csv.active")
         self.wait_for(lambda: os.path.exists(table) and os.path.getsize(table) > 5000, 120,
@@ -84,17 +81,16 @@ class LostRank(flying.FlightTest):
         self.assert_all_gone(ranks)
 
     def hang(self, program, rank, *keys):
-        """Output of a run of which this process is stopped; the other one must say so."""
-        process, ranks = self.airborne(program, *keys)
+        """Stops this process of a run; the other one must say so."""
+        process, ranks = self.airborne(program, *keys, watchdog=10.0)
         os.kill(ranks[rank], signal.SIGSTOP)
         code, output = self.finish(process, LIMIT)
         self.assertNotIn(code, (0, 130), output)
         self.assertIn("process %d of the flow has waited in vain for process %d, which hangs" % (1 - rank, rank), output)
         self.assert_all_gone(ranks)
-        return output
 
     def test_hung_in_nodes(self):
-        self.assertRegex(self.hang("fluid", 1), NODE_DIED)
+        self.hang("fluid", 1)  # mpirun takes its time, so any node may be the first that is gone
         self.assertIn("the fluid node", flying.summary(self.out())["failure"])
 
     def test_hung_in_process(self):

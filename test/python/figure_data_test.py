@@ -38,9 +38,10 @@ class Forces(unittest.TestCase):
 def message_text(name):
     """Definition of one of our messages with those of its parts, as a bag holds it."""
     text, parts = (ROOT / f"msg/{name}.msg").read_text(encoding="utf-8"), ""
-    for part in ("InterfaceState", "WingLoads"):
+    for part in ("InterfaceState", "WingLoads", "GuidanceState", "WingbeatCommand"):
         parts += "\n" + "=" * 80 + f"\nMSG: monarch_flight/{part}\n" + (ROOT / f"msg/{part}.msg").read_text(encoding="utf-8")
-    return text + "\n" + "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n" + parts
+    return text + "\n" + "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n" + (
+        "=" * 80 + "\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n") + parts
 
 
 class Runs(unittest.TestCase):
@@ -100,13 +101,13 @@ class Sweep(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             sweep.write_cases(ROOT / "config/cases/climb_printed.yaml", "wing/mass=3.6e-5", folder)
-            old = folder / "cases/climb_wing_mass_3.6e-5.yaml"
+            old = folder / "cases/climb_printed_wing_mass_3.6e-5.yaml"
             before = old.stat().st_mtime_ns
             sweep.write_cases(ROOT / "config/cases/climb_printed.yaml", "wing/mass=3.6e-5,3.7e-5", folder)
             self.assertEqual(old.stat().st_mtime_ns, before)  # not touched: Snakemake would fly it again
-            changed = yaml.safe_load((folder / "cases/climb_wing_mass_3.7e-5.yaml").read_text(encoding="utf-8"))
+            changed = yaml.safe_load((folder / "cases/climb_printed_wing_mass_3.7e-5.yaml").read_text(encoding="utf-8"))
             self.assertEqual(changed["insect"].pop("wing"), {"mass": 3.7e-5})
-            self.assertEqual(changed.pop("name"), "climb_wing_mass_3.7e-5")
+            self.assertEqual(changed.pop("name"), "climb_printed_wing_mass_3.7e-5")
             shipped.pop("name")
             self.assertEqual(changed, shipped)
 
