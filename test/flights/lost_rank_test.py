@@ -8,6 +8,8 @@ import unittest
 import flying
 
 LIMIT = 60.0  # seconds
+# The coordinator leaves when the fluid is lost, and may be gone before mpirun is.
+NODE_DIED = "fly: the node monarch_flight/(fluid|coordinator) died"
 
 
 def processes_of(folder, program):
