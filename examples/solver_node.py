@@ -192,8 +192,8 @@ class SolverNode:
                 return self.solver.commit(request)
             return self.keep(request)
         except Exception as e:  # whatever it is, the person hears of it from the coordinator
-            return ParticipantReply(interface=request.interface,
-                                    error="%s: %s" % (type(e).__name__, e))
+            return ParticipantReply(interface=request.interface, error="%s, step %d: %s: %s" % (
+                self.role, request.key.step, type(e).__name__, e))
 
     def keep(self, request):
         """CHECKPOINT and RESTORE, by `save` and `restore` (bytes) of a solver that has a state. The

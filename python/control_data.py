@@ -14,9 +14,9 @@ TUMBLED = math.radians(60.0)
 
 def flights(settings):
     """The flights given by runs:=, or the case flown in both airs with and without control."""
-    folders = settings.given or [data.run(settings.runs, CASE, f"fluid:={air}", f"flaps:={flaps}", "record:=false", *leader,
-                                          may_fail=bool(leader))
-                                 for air, lengths in LENGTHS.items() for flaps, leader in zip(lengths, ([], ["guidance:=motion"]))]
+    folders = settings.given or [
+        data.run(settings.runs, CASE, f"fluid:={air}", f"flaps:={flaps}", "record:=false", *leader, may_fail=bool(leader))
+        for air, lengths in LENGTHS.items() for flaps, leader in zip(lengths, ([], ["guidance:=motion"]))]
     try:
         return [LedFlight(folder) for folder in folders]
     except Unfit as unfit:
@@ -24,14 +24,14 @@ def flights(settings):
 
 
 def pairs(all_flights):
-    """{name of the figure: (led flight, uncontrolled one of the same insect in the same air or None)}."""
+    """{name of the figure: (led flight, uncontrolled one of the same insect in the same air and wind, or None)}."""
     led = [flight for flight in all_flights if flight.kind != "motion"]
     airs = [flight.case["fluid"]["solver"] for flight in led]
     found = {}
     for flight, air in zip(led, airs):
         name = f"control_{air}" + (f"_{flight.folder.name}" if airs.count(air) > 1 else "")
-        alone = [other for other in all_flights if other.kind == "motion" and other.case["insect"] == flight.case["insect"]
-                 and other.case["fluid"]["solver"] == air]
+        alone = [other for other in all_flights if other.kind == "motion"
+                 and all(other.case[key] == flight.case[key] for key in ("insect", "fluid"))]
         found[name] = (flight, alone[0] if alone else None)
     return found
 

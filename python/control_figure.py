@@ -27,7 +27,8 @@ def means(axes, flight, alone, which, title, label):
     """Climb (1) or speed (2) of each flap, with the set point."""
     edges, *wanted = control.set_point_steps(flight)
     if edges:
-        axes.stairs(wanted[which - 1], edges, baseline=None, color=WANTED, lw=1.2, label="set point")
+        steps = wanted[which - 1]
+        axes.plot(edges, steps + steps[-1:], drawstyle="steps-post", color=WANTED, lw=1.2, label="set point")
     if alone is not None:
         found = control.flap_means(alone)
         axes.plot(found[0], found[which], "x--", color=THEIRS, ms=4, lw=1, label="without control")
@@ -51,7 +52,8 @@ def wind(axes, flight):
 
 
 def path(axes, flight, alone):
-    for one, style in ((alone, dict(color=THEIRS, ls="--", label="without control")), (flight, dict(color=OURS, label="controlled"))):
+    for one, style in ((alone, dict(color=THEIRS, ls="--", label="without control")),
+                       (flight, dict(color=OURS, label="controlled"))):
         if one is not None:
             rows = control.rows_shown(one) if one is alone else slice(None)
             c = one.columns
@@ -89,5 +91,6 @@ def figure_control(settings):
     """{name: figure}, one for each flight that is led."""
     found = control.pairs(control.flights(settings))
     if not found:
-        raise SystemExit("figures: runs: none of them is a flight that is led (guidance/type controller, commands or node); give one")
+        raise SystemExit("figures: runs: none of them is a flight that is led (guidance/type controller, commands, node or "
+                         "replay); give one")
     return {name: draw(*pair) for name, pair in found.items()}

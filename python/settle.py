@@ -9,6 +9,7 @@ import numpy as np
 
 import case_files
 import settled_case
+import settled_motion
 from led_flight import ANGLE, COMMANDS, LedFlight, Unfit, shown
 
 
@@ -57,9 +58,8 @@ def judge(flight, bounds):
     change = float(np.max([flap.change for flap in judged]))  # NaN stays
     if not change <= bounds.repeat:
         reasons.append(f"a flap repeats within {change:.3g} (scaled): must be {bounds.repeat:g}")
-    before = flight.flaps[-bounds.flaps - 1:-1]
-    changes = {name: float(np.max([0.0] + [abs(b.means[name] - a.means[name]) for a, b in zip(before, flight.flaps[-len(before):])]))
-               for name in flight.used}
+    compared = flight.flaps[-bounds.flaps - 1:]
+    changes = {name: float(np.max(np.abs(np.diff([flap.means[name] for flap in compared])), initial=0.0)) for name in flight.used}
     for name, value in changes.items():
         if not value <= bounds.of(name):
             reasons.append(f"the mean of {name} changes by {shown(name, value):.3g} {COMMANDS[name]} a flap: "
@@ -156,28 +156,33 @@ def write(flight, verdict, out):
     active.rename(out)
 
 
+def led_flight(folder, folding):
+    """The flight in a folder; refused when it has not what is needed."""
+    flight = LedFlight(folder)
+    if flight.kind not in ("controller", "commands", "node"):
+        raise Unfit(f"{folder}: guidance/type = {flight.kind}: must be controller, commands or node, by which a flight is led; "
+                    "give the folder of such a flight")
+    if not flight.flaps:
+        raise Unfit(f"{folder}: holds no whole flap; fly more")
+    if folding:
+        settled_motion.check(flight)
+    return flight
+
+
 def main(arguments):
     """Exit code: 0 settled (and written), 1 not settled, 2 refused."""
     try:
         folder, bounds, out = settings_from(arguments)
-        flight = LedFlight(folder)
-        if flight.kind not in ("controller", "commands", "node"):
-            raise Unfit(f"{folder}: guidance/type = {flight.kind}: must be controller, commands or node, by which a flight is led; "
-                        "give the folder of such a flight")
-        if not flight.flaps:
-            raise Unfit(f"{folder}: holds no whole flap; fly more")
-        if out is not None:
-            settled_case.check(flight)
+        flight = led_flight(folder, out is not None)
     except Unfit as unfit:
         print("\n".join(f"settle: {fault}" for fault in unfit.faults), file=sys.stderr)
         return 2
     verdict = judge(flight, bounds)
     print(head(flight), *table(flight), *words(flight, verdict, bounds), sep="\n")
-    if verdict.reasons:
-        if out is not None:
-            print(f"settle: out:={out}: not written, for the flight has not settled; fly more flaps, or give wider bounds")
-        return 1
-    if out is not None:
+    if out is not None and verdict.reasons:
+        print(f"settle: out:={out}: not written, for the flight has not settled; fly more flaps, or give wider bounds",
+              file=sys.stderr)
+    elif out is not None:
         write(flight, verdict, out)
         print(f"case: {out}")
-    return 0
+    return 1 if verdict.reasons else 0

@@ -23,13 +23,13 @@ CommittedStep Coordinator::advance(std::uint32_t step, RunControl& control) {
   out.t = model_.time(step);
   out.prescribed = static_cast<int>(step) <= settings_.prescribed_steps || model_.free.count() == 0;
   before_.take([this](StateVisitor& state) { memory(state); });
-  prescribe(out);
-  step_model_.begin(committed_, out.guided, step);
+  heed(control, out);  // before guidance is asked: what is commanded meanwhile counts in this step
 
   Evaluation last;
   try {
+    prescribe(out);
+    step_model_.begin(committed_, out.guided, step);
     if (out.prescribed) {
-      heed(control, out);
       last = evaluate(out.guided.interface(), false, out);
     } else {
       solve(control, last, out);
@@ -54,7 +54,10 @@ void Coordinator::prescribe(CommittedStep& out) {
 
 void Coordinator::prescribe(const Request& request, CommittedStep& out) {
   const Reply reply = ask(Role::kGuidance, request, out);
-  if (!reply.prescribed) throw ExchangeError("guidance did not say what is prescribed");
+  if (!reply.prescribed) {
+    throw ExchangeError("guidance did not say what is prescribed at step " +
+                        std::to_string(request.key.step) + ": let it answer `prescribed`");
+  }
   out.guided = *reply.prescribed;
   out.guidance = reply.guidance;
 }
@@ -99,7 +102,7 @@ bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, RunContro
   double first = 0.0;
   std::optional<Loads> expected;
   for (int k = 0; k < settings_.max_sub_iterations; ++k) {
-    heed(control, out);
+    if (!out.iterations.empty()) heed(control, out);
     last = evaluate(step_model_.interface(d), accelerator.wantsOperator(operator_cost_), out);
     last.trial.d = d;
     judge(expected, last, out);

@@ -84,7 +84,8 @@ bool same(const Request& a, const Request& b) {
 }
 
 bool finite(const Request& request) {
-  return std::isfinite(request.t) && prescribedValues(request.prescribed).allFinite() &&
+  return std::isfinite(request.t) && std::isfinite(request.q_threshold) &&
+         prescribedValues(request.prescribed).allFinite() &&
          interfaceValues(request.interface).allFinite() && finite(request.loads);
 }
 

@@ -74,7 +74,8 @@ PeerWatch::~PeerWatch() {
 void PeerWatch::watch() {
   std::unique_lock<std::mutex> lock(lock_);
   while (!ended_) {
-    wake_.wait_for(lock, std::chrono::duration<double>(tickOf(limit_s_)));
+    const auto tick = std::chrono::duration<double>(tickOf(limit_s_));
+    if (wake_.wait_for(lock, tick) == std::cv_status::no_timeout) continue;  // not a whole tick
     look();
     if (limit_s_ > 0.0 && tooLong()) giveUp();
   }

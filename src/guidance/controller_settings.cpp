@@ -19,7 +19,7 @@ struct Place {
 Place placeOf(double value, const std::vector<double>& points) {
   if (points.size() < 2 || value <= points.front()) return {};
   const auto last = static_cast<Index>(points.size()) - 1;
-  if (value >= points.back()) return {last, last, 0.0};
+  if (!(value < points.back())) return {last, last, 0.0};  // not a number, too
   const auto above = std::upper_bound(points.begin(), points.end(), value) - points.begin();
   const double low = points[static_cast<std::size_t>(above - 1)];
   return {above - 1, above, (value - low) / (points[static_cast<std::size_t>(above)] - low)};

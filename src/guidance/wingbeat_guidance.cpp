@@ -10,16 +10,6 @@
 namespace monarch_flight {
 namespace {
 
-enum Index {
-  kAmplitude,
-  kFlappingMean,
-  kFrequency,
-  kDeviationMean,
-  kRestAngle,
-  kAbdomenMean,
-  kAbdomenAmplitude
-};
-
 constexpr int kSamples = 360;  // of a flap, for the means
 
 /// A series swung and shifted: q + swing (q - mean) + shift.
@@ -70,7 +60,7 @@ std::vector<std::string> WingbeatSettings::problems() const {
       fault(name + "[1]", l.high, ">= 0; 0 is no command");
     if (!(std::isfinite(l.rate) && l.rate > 0.0))
       fault(std::string("rates/") + kCommandTable[i].name, l.rate, "> 0 a flap; 1 is usual");
-    const bool relative = i == kAmplitude || i == kFrequency;
+    const bool relative = i == kAmplitudeCommand || i == kFrequencyCommand;
     if (relative && !(l.low > -1.0))
       fault(name + "[0]", l.low, "> -1: the wings must beat; -0.25 is usual");
   }
@@ -144,20 +134,21 @@ void WingbeatGuidance::take(const WingbeatChange& wanted) {
 }
 
 PrescribedState WingbeatGuidance::at(double t) {
-  const double tau = t + filters_[kFrequency].integral();
+  const double tau = t + filters_[kFrequencyCommand].integral();
   report_.phase = settings_.frequency * tau;
   PrescribedState state = motion_->at(t);
-  const Coordinate& f = applied_[kFrequency];
+  const Coordinate& f = applied_[kFrequencyCommand];
   if (tau != t || f.q != 0.0 || f.qd != 0.0) {
     const JointAngles joints = motion_->at(tau).angles;
     state.angles = {retimed(joints.phi, f), retimed(joints.psi, f), retimed(joints.theta, f),
                     retimed(joints.theta_A, f)};
   }
   JointAngles& a = state.angles;
-  a.phi = swung(a.phi, phi_mean_, applied_[kAmplitude], applied_[kFlappingMean]);
-  a.psi = shifted(a.psi, applied_[kDeviationMean]);
-  a.theta_A = swung(a.theta_A, abdomen_mean_, applied_[kAbdomenAmplitude], applied_[kAbdomenMean]);
-  state.rest_angle = applied_[kRestAngle].q;
+  a.phi = swung(a.phi, phi_mean_, applied_[kAmplitudeCommand], applied_[kFlappingMeanCommand]);
+  a.psi = shifted(a.psi, applied_[kDeviationMeanCommand]);
+  a.theta_A = swung(a.theta_A, abdomen_mean_, applied_[kAbdomenAmplitudeCommand],
+                    applied_[kAbdomenMeanCommand]);
+  state.rest_angle = applied_[kRestAngleCommand].q;
   return state;
 }
 

@@ -160,8 +160,9 @@ WingbeatCommand toMessage(const WingbeatChange& change) {
 }
 
 WingbeatChange fromMessage(const WingbeatCommand& command) {
-  return {command.amplitude,    command.flapping_mean, command.frequency, command.deviation_mean,
-          command.rest_angle,   command.abdomen_mean,  command.abdomen_amplitude};
+  return {command.amplitude,        command.flapping_mean, command.frequency,
+          command.deviation_mean,   command.rest_angle,    command.abdomen_mean,
+          command.abdomen_amplitude};
 }
 
 GuidanceState toMessage(const GuidanceReport& report) {
@@ -333,6 +334,8 @@ IgnoredMessages fromMessage(const IgnoredCounts& ignored) {
 }
 
 std::string problem(const ParticipantRequest& request) {
+  if (request.vortex_limit > kLargestPicture)
+    return "a picture of " + std::to_string(request.vortex_limit) + " parts";
   return problem(request.protocol, request.key);
 }
 

@@ -46,7 +46,7 @@ DiagnosticStatus guidance(const GuidanceReport& report) {
   out.hardware_id = "monarch_flight";
   const bool told = report.lost || report.clipped + report.refused > 0;
   out.level = told ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
-  out.message = report.lost            ? "the controller has given up"
+  out.message = report.lost            ? "guidance has given up"
                 : report.refused > 0   ? "commands were refused: not finite"
                 : report.clipped > 0   ? "commands were cut to their bounds"
                                        : "as commanded";

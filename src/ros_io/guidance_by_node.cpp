@@ -5,7 +5,7 @@ namespace monarch_flight {
 Reply GuidanceByNode::exchange(const Request& request) {
   const Reply wanted = node_.exchange(request);
   if (!wanted.error.empty()) return wanted;
-  if (wanted.command) inbox_->post(*wanted.command, true);
+  if (wanted.command && request.key.phase == Phase::kIterate) inbox_->post(*wanted.command, true);
   Reply reply = own_.exchange(request);
   reply.wall_s += wanted.wall_s;
   reply.guidance.lost = wanted.guidance.lost;

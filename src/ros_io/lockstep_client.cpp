@@ -147,6 +147,8 @@ Reply RosParticipant::exchange(const Request& request) {
   await(message, request.key);
   counters_there_ = fromMessage(reply_->ignored);
   Reply reply = fromMessage(*reply_);
+  if (!reply.error.empty() && reply.error.find("step ") == std::string::npos)
+    reply.error = name() + ", " + describe(reply.key) + ": " + reply.error;
   if (reply.error.empty() && !(finite(reply.interface) && reply.loads.finite())) {
     reply.error = name() + " answered a number that is not finite at " + describe(reply.key);
   }

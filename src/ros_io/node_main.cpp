@@ -112,10 +112,6 @@ int inProcessMain(int argc, char** argv) {
     const RunParameters parameters = runParameters(argc, argv);
     if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
-    if (c.guidance.kind == GuidanceKind::kNode)
-      throw InputError(
-          "guidance/type = node: a run in one process has no nodes; choose another type, or fly with "
-          "nodes");
     if (parameters.plan) {
       const std::string plan = plannedRun(parameters, c, false);
       std::cout << (plan.empty() ? "quasi-steady air: no grid to plan\n" : plan);
@@ -123,6 +119,10 @@ int inProcessMain(int argc, char** argv) {
         std::cout << remark << std::endl;
       return static_cast<int>(kExitComplete);
     }
+    if (c.guidance.kind == GuidanceKind::kNode || c.guidance.kind == GuidanceKind::kCommands)
+      throw InputError(std::string("guidance/type = ") + guidanceName(c.guidance.kind) +
+                       ": a run in one process has no nodes and no topics that could lead it; choose "
+                       "another type, or fly with nodes (in_process:=false)");
     requireProcesses(parameters, c);
     const std::string out = outputDirectory(parameters, c);
     std::cout << plannedRun(parameters, c, false);

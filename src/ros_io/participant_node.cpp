@@ -70,8 +70,8 @@ ParticipantNode::ParticipantNode(const StopFlag& stop,
     : case_(readCase(Role::kGuidance)),
       participant_([this, make](const std::string& checkpoints) {
         return std::make_unique<KeptParticipant>(
-            roleName(Role::kGuidance), std::make_unique<GuidanceParticipant>(makeModel(case_), make(case_)),
-            checkpoints);
+            roleName(Role::kGuidance),
+            std::make_unique<GuidanceParticipant>(makeModel(case_), make(case_)), checkpoints);
       }),
       server_(ros::NodeHandle(kNamespace),
               {Role::kGuidance, case_.name, case_.sha256, Token::fromEnvironment()}, participant_,

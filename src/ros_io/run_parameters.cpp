@@ -64,8 +64,8 @@ void take(const std::string& key, const std::string& value, const std::string& w
     // of the coordinator to the solver nodes: participant_node.cpp
   } else if (key == "directory") {
     out.directory = value;
-  } else if (oneOf(key, {"fluid", "grid", "guidance", "guidance_file", "flaps", "steps_per_flap", "record", "fields_every",
-                         "checkpoint_every"})) {
+  } else if (oneOf(key, {"fluid", "grid", "guidance", "guidance_file", "flaps", "steps_per_flap",
+                         "record", "fields_every", "checkpoint_every"})) {
     out.overrides[key] = value;
   } else if (key == "plan" && where.empty()) {
     out.plan = value == "true";
@@ -96,7 +96,8 @@ RunParameters checked(const Values& values, const std::string& where, Faults fau
     faults.push_back(where + "out = " + out.out + ": a resumed run goes on in its own folder (" +
                      where + "resume = " + out.resume + "); leave one of them out");
   }
-  if (!out.resume.empty() && (values.count("case") == 0 || values.at("case").empty())) out.name = out.resume + "/case.yaml";
+  if (!out.resume.empty() && (values.count("case") == 0 || values.at("case").empty()))
+    out.name = out.resume + "/case.yaml";
   if (!faults.empty()) throw InputError(faults);
   return out;
 }
@@ -210,8 +211,7 @@ std::string plannedRun(const RunParameters& parameters, const Case& c, bool node
 std::string outputDirectory(const RunParameters& parameters, const Case& c) {
   const fs::path base =
       parameters.directory.empty() ? fs::current_path() : fs::path(parameters.directory);
-  if (!parameters.resume.empty())
-    return fs::absolute(base / parameters.resume).lexically_normal();
+  if (!parameters.resume.empty()) return fs::absolute(base / parameters.resume).lexically_normal();
   if (!parameters.out.empty()) return fs::absolute(base / parameters.out).lexically_normal();
   const std::time_t now = std::time(nullptr);
   char stamp[32];

@@ -32,9 +32,10 @@ void readLimits(Section& section, double period, WingbeatSettings& settings) {
     if (range.size() == 2) {
       settings.limits[i].low = range[0];
       settings.limits[i].high = range[1];
-    } else if (limits.has(info.name) && limits.clean()) {
-      limits.fault(info.name, " has " + std::to_string(range.size()) +
-                                  " values: must be 2, the lowest and the highest command");
+    } else if (limits.has(info.name) && limits.take(info.name).IsSequence()) {
+      limits.fault(info.name,
+                   " has " + std::to_string(range.size()) +
+                       " values: must be 2, the lowest and the highest command; give both");
     }
     settings.limits[i].rate =
         rates.number(info.name, {Bound::kPositive, unitOf(info) + " a flap", "1 is usual"}) /
@@ -124,11 +125,34 @@ GuidanceSettings readGuidance(Section section, double frequency, const Case& c, 
   return settings;
 }
 
+/// Values that a recorded flight cannot have.
+void checkReplay(const Case& c, const NumericTable& table, Faults& faults) {
+  const auto check = [&](const std::string& name, double low, double high) {
+    const std::vector<double> values = table.column(name);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] >= low && values[i] <= high) continue;
+      faults.add(table.name + ": row " + std::to_string(i + 1) + ", column " + name + " = " +
+                 exactText(values[i]) + ": must be " + exactText(low) +
+                 (low < high ? " to " + exactText(high) : "") +
+                 "; take the flight.csv of a flight with this case");
+      return;
+    }
+  };
+  constexpr double kMostCounted = 4294967295.0;
+  check("clipped", 0.0, kMostCounted);
+  check("refused", 0.0, kMostCounted);
+  check("lost", 0.0, 1.0);
+  if (c.insect.bare_wing) return;
+  check("wy", 0.0, 0.0);  // only one wing is solved and mirrored
+  check("way", 0.0, 0.0);
+}
+
 void checkGuidance(const Case& c, const CaseMotion& motion, Faults& faults) {
   const GuidanceSettings& g = c.guidance;
   if (g.kind == GuidanceKind::kReplay) {
     if (!g.replay) return;
     const auto& rows = g.replay->rows;
+    checkReplay(c, *g.replay, faults);
     if (rows.size() <= c.time.steps) {
       faults.add(g.replay->name + ": has " + std::to_string(rows.size()) +
                  " rows: must have one a level, " + std::to_string(c.time.steps + 1) +
@@ -150,10 +174,16 @@ void checkGuidance(const Case& c, const CaseMotion& motion, Faults& faults) {
   if (g.kind == GuidanceKind::kMotion) return;
   faults.add(g.wingbeat.problems());
   if (!motion.is_table) return;
-  const CommandLimits& f = g.wingbeat.limits[2];
+  if (c.time.t_start + c.time.period > motion.t_end + 1e-9 * c.time.period) {
+    faults.add("motion: the table ends at " + exactText(motion.t_end) +
+               " s: must reach over a flap from time/t_start, to " +
+               exactText(c.time.t_start + c.time.period) +
+               " s, for a wingbeat that is led; give a longer table, or guidance/type motion");
+  }
+  const CommandLimits& f = g.wingbeat.limits[kFrequencyCommand];
   if (f.low == 0.0 && f.high == 0.0) return;
   faults.add("guidance/limits/frequency = [" + exactText(f.low) + ", " + exactText(f.high) +
-             "]: must be [0, 0] with a motion by a table, which has its own clock");
+             "]: must be [0, 0] with a motion by a table, which has its own clock; set it to that");
 }
 
 }  // namespace monarch_flight

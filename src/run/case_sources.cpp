@@ -135,11 +135,11 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
 
 }  // namespace
 
-YAML::Node overlaid(const YAML::Node& base, const YAML::Node& top) {
+YAML::Node overlaid(const YAML::Node& base, const YAML::Node& top, bool types) {
   if (!base.IsDefined() || !base.IsMap() || !top.IsMap()) return YAML::Clone(top);
   const YAML::Node type_below = get(base, "type");
   const YAML::Node type_above = get(top, "type");
-  if (type_below.IsDefined() && type_above.IsDefined() && type_below.IsScalar() &&
+  if (types && type_below.IsDefined() && type_above.IsDefined() && type_below.IsScalar() &&
       type_above.IsScalar() && type_below.Scalar() != type_above.Scalar()) {
     return YAML::Clone(top);
   }
@@ -147,7 +147,9 @@ YAML::Node overlaid(const YAML::Node& base, const YAML::Node& top) {
   for (const auto& entry : top) {
     const std::string key = entry.first.Scalar();
     const YAML::Node below = get(base, key);
-    result[key] = below.IsDefined() ? overlaid(below, entry.second) : YAML::Clone(entry.second);
+    // All types of guidance have the same keys.
+    result[key] = below.IsDefined() ? overlaid(below, entry.second, key != "guidance")
+                                    : YAML::Clone(entry.second);
   }
   return result;
 }
@@ -174,6 +176,13 @@ YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,
   layBelow(root, "insect", "preset", ".yaml", config_dir, faults);
   layBelow(root, "motion", "series", "_kinematics.yaml", config_dir, faults);
   applyOverrides(root, overrides, faults);
+  const auto file = overrides.find("guidance_file");
+  const YAML::Node type = get(get(root, "guidance"), "type");
+  if (file != overrides.end() && !(type.IsDefined() && type.Scalar() == "replay")) {
+    faults.add(
+        "guidance_file:=" + file->second +
+        ": only guidance:=replay reads a recorded flight; give that too, or leave the file out");
+  }
   return root;
 }
 

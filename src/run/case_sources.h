@@ -10,7 +10,7 @@ namespace monarch_flight {
 
 /// `top` laid over `base`: maps are merged key by key, anything else is replaced. A map of `top`
 /// whose `type` differs from that of the map below replaces it as a whole.
-YAML::Node overlaid(const YAML::Node& base, const YAML::Node& top);
+YAML::Node overlaid(const YAML::Node& base, const YAML::Node& top, bool types = true);
 
 /// The path of a case given by name (config_dir/cases/<name>.yaml) or by path; InputError, naming
 /// the cases there are, when there is no such file.

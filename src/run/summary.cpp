@@ -53,15 +53,14 @@ void Range::add(double value) {
 }
 
 Summary::Summary(const Case& c)
-    : case_(c),
-      time_(c.time),
-      begin_(std::chrono::steady_clock::now()) {}
+    : case_(c), time_(c.time), begin_(std::chrono::steady_clock::now()) {}
 
 void Summary::add(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
   theta_B_.add(body.pitch.q);
   theta_R_.add(step.interface.theta_R.q);
-  if (case_.free.pitch && tumbled_ == kNever && std::abs(body.pitch.q) > kTumbled) tumbled_ = step.step;
+  if (case_.free.pitch && tumbled_ == kNever && std::abs(body.pitch.q) > kTumbled)
+    tumbled_ = step.step;
   guidance_ = step.guidance;
   if (guidance_.lost && lost_ == kNever) lost_ = step.step;
   hash_.add(step);
@@ -124,9 +123,7 @@ double Summary::climbAngleDegrees() const {
 
 const Range& Summary::subIterations() const { return solved_.count ? solved_ : all_; }
 
-double Summary::wallSeconds() const {
-  return wall_before_ + secondsSince(begin_);
-}
+double Summary::wallSeconds() const { return wall_before_ + secondsSince(begin_); }
 
 void Summary::memory(StateVisitor& state) {
   const auto range = [&state](const std::string& name, Range& r) {
@@ -204,7 +201,8 @@ std::string Summary::json(const std::string& failure) const {
   const bool tumbled = tumbled_ != kNever;
   j["tumbled_from_step"] = tumbled ? Json(tumbled_) : Json();
   j["tumbled_from_flap"] = tumbled && flapOf(tumbled_) > 0 ? Json(flapOf(tumbled_)) : Json();
-  j["sub_iterations"] = {{"mean", subIterations().mean()}, {"max", std::lround(subIterations().max)}};
+  j["sub_iterations"] = {{"mean", subIterations().mean()},
+                         {"max", std::lround(subIterations().max)}};
   j["retried_steps"] = retried_;
   j["fluid_evaluations"] = {{"mean", evaluations_.mean()}, {"max", std::lround(evaluations_.max)}};
   j["added_mass_ratio"] = {{"mean", ratio_.mean()}, {"max", ratio_.max}};
@@ -222,14 +220,9 @@ std::string Summary::json(const std::string& failure) const {
                      {"refused", guidance_.refused},
                      {"lost_from_flap", lost_ == kNever ? Json(nullptr) : Json(flapOf(lost_))}};
   }
-  j["wall_s"] = {{"total", wallSeconds()},
-                 {"fluid", wall_[0]},
-                 {"flight", wall_[1]},
-                 {"wing", wall_[2]},
-                 {"guidance", wall_[3]},
-                 {"exchange", exchange_},
-                 {"coupling", coupling_},
-                 {"outputs", outputs_}};
+  j["wall_s"] = {{"total", wallSeconds()}, {"fluid", wall_[0]},    {"flight", wall_[1]},
+                 {"wing", wall_[2]},       {"guidance", wall_[3]}, {"exchange", exchange_},
+                 {"coupling", coupling_},  {"outputs", outputs_}};
   if (cells_ > 0) j["fluid_s"] = kernels(kernels_, wall_[0]);
   if (resumed_ != "[]") j["resumed"] = Json::parse(resumed_);
   j["ignored_messages"] = {{"late", ignored_.late},

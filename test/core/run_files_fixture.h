@@ -60,10 +60,20 @@ inline CommittedStep stepAt(std::uint32_t n) {
   body.a = Eigen::Vector3d(0.1, 0.2, 0.3);
   body = withPitch(body, {0.1 + 0.01 * n, 1.0, 100.0});
   s.interface.theta_R = {-0.2 + 0.02 * n, 2.0, 200.0};
-  s.angles.phi.q = 0.4;
-  s.angles.psi.q = 0.5;
+  s.angles.phi = {0.4, 41, 42};
+  s.angles.psi = {0.5, 51, 52};
   s.angles.theta = s.interface.theta_R;
-  s.angles.theta_A.q = 0.6;
+  s.angles.theta_A = {0.6, 61, 62};
+  s.guided.rest_angle = 0.0625;
+  s.guided.wind = {{-1, 0, 0.5}, {-11, 0, 12}};
+  s.guidance.phase = 0.1 * n;
+  s.guidance.clipped = 3;
+  s.guidance.refused = 4;
+  s.guidance.lost = n > 2;
+  for (std::size_t k = 0; k < kCommands; ++k) {
+    s.guidance.command.*kCommandTable[k].value = 100.0 + static_cast<double>(k);
+    s.guidance.applied.*kCommandTable[k].value = 200.0 + static_cast<double>(k);
+  }
   s.loads.force_pressure = Eigen::Vector3d(1, 2, 3);
   s.loads.force_friction = Eigen::Vector3d(0.25, 0.5, 0.75);
   s.loads.moment_pressure = Eigen::Vector3d(4, 5, 6);

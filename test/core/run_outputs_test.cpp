@@ -20,7 +20,12 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
       rows[0],
       "t,x,y,z,vx,vy,vz,ax,ay,az,theta_B,theta_B_dot,theta_B_ddot,qw,qx,qy,qz,phi,psi,theta_R,"
       "theta_R_dot,theta_R_ddot,theta_A,fx,fy,fz,mx,my,mz,fx_p,fy_p,fz_p,mx_p,my_p,mz_p,FX,FY,"
-      "FZ,sub_iterations,courant");
+      "FZ,sub_iterations,courant,phi_dot,phi_ddot,psi_dot,psi_ddot,theta_A_dot,theta_A_ddot,"
+      "rest_angle,wx,wy,wz,wax,way,waz,phase,clipped,refused,lost,command_amplitude,"
+      "command_flapping_mean,command_frequency,command_deviation_mean,command_rest_angle,"
+      "command_abdomen_mean,command_abdomen_amplitude,applied_amplitude,applied_flapping_mean,"
+      "applied_frequency,applied_deviation_mean,applied_rest_angle,applied_abdomen_mean,"
+      "applied_abdomen_amplitude");
   const double b = step.interface.body.pitch.q, r = step.interface.theta_R.q;
   const std::vector<double> expected = {step.t, step.interface.body.x[0],
                                         0,      step.interface.body.x[2],
@@ -41,7 +46,23 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
                                         4,      5,
                                         6,      7,
                                         8,      9,
-                                        4,      0.875};
+                                        4,      0.875,
+                                        41,     42,
+                                        51,     52,
+                                        61,     62,
+                                        0.0625, -1,
+                                        0,      0.5,
+                                        -11,    0,
+                                        12,     0.1 * 3,
+                                        3,      4,
+                                        1,      100,
+                                        101,    102,
+                                        103,    104,
+                                        105,    106,
+                                        200,    201,
+                                        202,    203,
+                                        204,    205,
+                                        206};
   const auto row = numbers(rows[2]);
   ASSERT_EQ(row.size(), expected.size());
   for (std::size_t i = 0; i < row.size(); ++i) {

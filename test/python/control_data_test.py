@@ -36,8 +36,9 @@ class Controlled(unittest.TestCase):
     def test_pairs(self):
         led, alone = self.flight("led"), self.flight("alone", kind="motion")
         other = self.flight("other", kind="motion", insect=dict(kind="moth"))
+        windy = self.flight("windy", kind="motion", fluid=dict(solver="quasi_steady", wind=[1, 0, 0]))
         flow = self.flight("flow", fluid=dict(solver="navier_stokes"))
-        pairs = control.pairs([other, flow, alone, led])
+        pairs = control.pairs([other, windy, flow, alone, led])
         self.assertEqual(pairs, {"control_quasi_steady": (led, alone), "control_navier_stokes": (flow, None)})
         again = self.flight("again")
         self.assertEqual(set(control.pairs([led, again])), {"control_quasi_steady_led", "control_quasi_steady_again"})
@@ -81,8 +82,8 @@ class Summary(unittest.TestCase):
         loader.exec_module(summary)
         told = dict(type="controller", clipped=3, refused=1, lost_from_flap=None)
         self.assertEqual(summary.guidance(told), "controller, 3 commands cut to their bounds, 1 refused")
-        self.assertEqual(summary.guidance(told | dict(lost_from_flap=7)),
-                         "controller, 3 commands cut to their bounds, 1 refused, lost from flap 7")
+        self.assertEqual(summary.guidance(told | dict(clipped=1, refused=0, lost_from_flap=7)),
+                         "controller, 1 command cut to its bounds, 0 refused, lost from flap 7")
         spread, figures = dict(min=0, mean=0, max=0), dict(sub_iterations={}, fluid_evaluations={}, added_mass_ratio={})
         whole = {key: value | spread for key, value in figures.items()} | dict(
             steps=1, flaps=1, retried_steps=0, climb_angle_deg=0, speed_m_s=0, theta_B_deg=spread, theta_R_deg=spread, cells=0,

@@ -33,13 +33,13 @@ def case():
                       set_points=dict(flaps=[0, 1], speeds=[1.0, SET_POINT[0]], climbs_deg=[0, SET_POINT[1]]), slew=0.1,
                       table=dict(speeds=[1.0, 1.5], climbs_deg=[10.0, 30.0], commands=rng.normal(0, 0.02, (4, 2)).tolist(),
                                  states=rng.normal(0, 1, (4 * SAMPLES, 6)).tolist()),
-                      gains=dict(state=rng.normal(size=(2 * SAMPLES, 6)).tolist(), filter=rng.normal(size=(2 * SAMPLES, 6)).tolist(),
-                                 integral=rng.normal(size=(2 * SAMPLES, 2)).tolist()))
+                      gains={key: rng.normal(size=(2 * SAMPLES, n)).tolist() for key, n in (("state", 6), ("filter", 6), ("integral", 2))})
     names = ("amplitude", "flapping_mean", "frequency", "deviation_mean", "rest_angle", "abdomen_mean", "abdomen_amplitude")
     return dict(name="made_up", description="a: b", insect=dict(kind="butterfly", wing=dict(theta_0=0.01, root=[0.0, 0.1, 0.2])),
                 fluid=dict(solver="quasi_steady"),
-                motion=dict(type="fourier", frequency=F, phi_deg=angle, psi_deg=-2.0, theta_A_deg=dict(angle), theta_B_deg=dict(angle),
-                            theta_R_deg=dict(angle), body=dict(position=[0, 0, 0], velocity=[1.0, 0, 0.0], sway_x="none", sway_z="none")),
+                motion=dict(type="fourier", frequency=F, phi_deg=angle, psi_deg=-2.0, theta_A_deg=dict(angle),
+                            theta_B_deg=dict(angle), theta_R_deg=dict(angle),
+                            body=dict(position=[0, 0, 0], velocity=[1.0, 0, 0.0], sway_x="none", sway_z="none")),
                 initial=dict(position="none"), free=dict(x=True, z=True, pitch=True, wing_pitch=True),
                 time=dict(t_start=0, steps_per_flap=STEPS, flaps=6), coupling=dict(prescribed_steps=STEPS, tolerance=1e-8),
                 guidance=dict(type="controller", time_constant=0.06, limits={name: [-0.3, 0.2] for name in names},
@@ -64,7 +64,6 @@ def columns(flaps=6, means=None, velocity=(1.2, -0.4), wind=(0.0, 0.0)):
 def write(folder, case_, columns_):
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "case.yaml").write_text(case_files.text(copy.deepcopy(case_)), encoding="utf-8")
-    rows = np.column_stack(list(columns_.values()))
-    (folder / "flight.csv").write_text("\n".join([",".join(columns_)] + [",".join(repr(float(v)) for v in row) for row in rows]) + "\n",
-                                       encoding="utf-8")
+    rows = [",".join(repr(float(v)) for v in row) for row in np.column_stack(list(columns_.values()))]
+    (folder / "flight.csv").write_text("\n".join([",".join(columns_)] + rows) + "\n", encoding="utf-8")
     return folder

@@ -15,6 +15,7 @@ import case_files  # noqa: E402
 import led_flights as made  # noqa: E402
 import settle  # noqa: E402
 import settled_case  # noqa: E402
+import settled_motion  # noqa: E402
 from led_flight import LedFlight  # noqa: E402
 
 MEANS = dict(amplitude=0.04, deviation_mean=0.02, flapping_mean=-0.03, rest_angle=0.05, abdomen_mean=0.01, abdomen_amplitude=0.1)
@@ -106,7 +107,8 @@ class Verdicts(Folder):
         self.assertNotEqual(self.verdict(columns, flaps=4).reasons, [])
 
     def test_prescribed_lost_and_not_finite(self):
-        self.assertIn("2 whole free flaps: flaps:=3 needs 4", self.verdict(made.columns(flaps=3)).reasons[0])
+        self.assertIn("3 whole free flaps: flaps:=3 needs 4", self.verdict(made.columns(flaps=4)).reasons[0])
+        self.assertEqual(self.verdict(made.columns(flaps=5)).reasons, [])
         columns = made.columns()
         columns["lost"][45:] = 1
         self.assertEqual(self.verdict(columns).reasons, ["the controller gave up in flap 3"])
@@ -135,8 +137,9 @@ class Folding(Folder):
         motion = new["motion"]
         self.assertEqual((new["coupling"]["prescribed_steps"], "initial" in new), (made.STEPS, False))
         np.testing.assert_allclose(motion["body"]["velocity"], [1.2, 0, -0.4], atol=1e-12)
-        for found, series, unit in ((motion["body"]["sway_x"], made.X, 1), (motion["body"]["sway_z"], made.Z, 1),
-                                    (motion["theta_B_deg"], made.THETA_B, 180 / math.pi), (motion["theta_R_deg"], made.THETA_R, 180 / math.pi)):
+        body, degrees = motion["body"], 180 / math.pi
+        for found, series, unit in ((body["sway_x"], made.X, 1), (body["sway_z"], made.Z, 1),
+                                    (motion["theta_B_deg"], made.THETA_B, degrees), (motion["theta_R_deg"], made.THETA_R, degrees)):
             np.testing.assert_allclose(found["AN"][:2], unit * np.array(series[1]), atol=1e-9)
             np.testing.assert_allclose(found["BN"][:2], unit * np.array(series[2]), atol=1e-9)
             np.testing.assert_allclose(found["AN"][2:] + found["BN"][2:], 0, atol=1e-9)
@@ -149,9 +152,9 @@ class Folding(Folder):
         columns["theta_B_dot"] += 0.02 * 2 * np.pi * 9 * made.F * np.cos(2 * np.pi * 9 * columns["phase"])
         columns["vx"] += 0.005
         motion = self.settled(columns)["motion"]
-        value, rate = settled_case.at_start({k: np.radians(v) if k != "multiple" else v for k, v in motion["theta_B_deg"].items()}, made.F)
-        np.testing.assert_allclose([value, rate], [columns["theta_B"][-21], columns["theta_B_dot"][-21]], rtol=1e-9)
-        rate = settled_case.at_start(motion["body"]["sway_x"], made.F)[1]
+        found = np.radians(settled_motion.at_start(motion["theta_B_deg"], made.F))
+        np.testing.assert_allclose(found, [columns["theta_B"][-21], columns["theta_B_dot"][-21]], rtol=1e-9)
+        rate = settled_motion.at_start(motion["body"]["sway_x"], made.F)[1]
         self.assertAlmostEqual(motion["body"]["velocity"][0] + rate, columns["vx"][-21], places=9)
 
     def test_law_is_the_same_about_the_folded_motion(self):
@@ -164,7 +167,8 @@ class Folding(Folder):
             commands = []
             for case, c in ((old, filters), (new, filters * unit[:, None])):
                 gains = case["guidance"]["controller"]["gains"]
-                state, filter_, integral_ = (np.array(gains[key])[2 * phase:2 * phase + 2] for key in ("state", "filter", "integral"))
+                rows = slice(2 * phase, 2 * phase + 2)
+                state, filter_, integral_ = (np.array(gains[key])[rows] for key in ("state", "filter", "integral"))
                 commands.append(-state @ deviation - filter_ @ c.ravel() - integral_ @ integral)
             np.testing.assert_allclose(commands[1], commands[0] * unit, rtol=1e-9)
         low, high = (np.array(old["guidance"]["limits"]["amplitude"]) - mean[0]) * unit[0]
@@ -185,6 +189,21 @@ class Folding(Folder):
         moved = moved[0] - moved[1]
         np.testing.assert_allclose(moved, np.broadcast_to(moved[:1], moved.shape), atol=1e-9)  # all points alike
 
+        slope = np.diff(old["table"]["commands"], axis=0) * [1 / 1.04, 1.0]  # in units of the new commands
+        np.testing.assert_allclose(np.diff(new["table"]["commands"], axis=0), slope, atol=1e-11)
+
+    def test_reference_between_the_points_has_the_velocity_asked_for(self):
+        controller = made.case()["guidance"]["controller"]
+        table, wanted = controller["table"], settled_case.velocity(1.25, math.radians(15.0))
+        corners = [settled_case.velocity(speed, math.radians(climb)) for speed in (1.0, 1.5) for climb in (10.0, 30.0)]
+        share = np.array([0.375, 0.125, 0.375, 0.125])
+        commands, states = settled_case.reference(controller, wanted)
+        np.testing.assert_allclose(commands, share @ np.array(table["commands"]), atol=1e-12)
+        mixture = np.tensordot(share, np.array(table["states"]).reshape(4, made.SAMPLES, 6), 1)
+        np.testing.assert_allclose(states[:, 2:], mixture[:, 2:], atol=1e-12)
+        moved = states[:, :2] - mixture[:, :2]
+        np.testing.assert_allclose(moved, np.tile(wanted - share @ corners, (made.SAMPLES, 1)), atol=1e-12)
+
     def test_reference_at_a_point_of_the_table(self):
         controller = made.case()["guidance"]["controller"]
         commands, states = settled_case.reference(controller, settled_case.velocity(1.5, math.radians(10.0)))
@@ -199,7 +218,8 @@ class Files(Folder):
         code, text = self.command(self.folder / "run", f"out:={out}")
         self.assertEqual(code, 0, text)
         written = out.read_text(encoding="utf-8")
-        for words in ("# Made by scripts/settle", "amplitude +4 %", "# status: flown, flap 6 of run/flight.csv", "name: periodic\n"):
+        for words in ("# Made by scripts/settle", "amplitude +4 %", "# status: flown, the last flap (flaps 4 to 6 of run/flight.csv)",
+                      "name: periodic\n"):
             self.assertIn(words, written)
         expected = settled_case.settled(flight, settle.judge(flight, settle.Bounds()), "periodic")[0]
         self.assertEqual(case_files.read(out), expected)
@@ -223,16 +243,19 @@ class Files(Folder):
         self.assertIn("guidance/type = motion: must be controller, commands or node", text)
         code, text = self.command(self.folder / "nowhere", "flaps:=x", "repeat:=-1", "bound:=2", "out:=new")
         self.assertEqual(code, 2)
-        for words in ("flaps:=x: must be a whole number", "repeat:=-1: must be a number > 0", "'bound:=2': unknown", "must end in .yaml"):
+        for words in ("flaps:=x: must be a whole number", "repeat:=-1: must be a number > 0", "'bound:=2': unknown",
+                      "must end in .yaml"):
             self.assertIn(words, text)
         self.assertIn("case.yaml: does not exist", self.command(self.folder / "nowhere")[1])
         case = made.case()
         case["motion"]["type"] = "table"
         self.flight(case=case)
-        self.assertIn("motion/type = table: must be fourier", self.command(self.folder / "run", f"out:={self.folder}/new.yaml")[1])
+        code, text = self.command(self.folder / "run", f"out:={self.folder}/new.yaml")
+        self.assertIn("motion/type = table: must be fourier", text)
 
     def test_text_of_a_case(self):
-        content = dict(a=True, b=dict(c=[1, 2.5e-9], d=[[1, 2], [3, 4]]), e="x: y", f="a, b", g=[dict(k="in, out", v=[0, 1])], h="none", i=-3)
+        content = dict(a=True, b=dict(c=[1, 2.5e-9], d=[[1, 2], [3, 4]]), e="x: y", f="a, b", g=[dict(k="in, out", v=[0, 1])],
+                       h="none", i=-3)
         path = self.folder / "case.yaml"
         path.write_text(case_files.text(content, {"b/d": "why\nso"}), encoding="utf-8")
         self.assertEqual(case_files.read(path), content)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "monarch_flight/coupling/interface_values.h"
 #include "monarch_flight/math/rotation.h"
 #include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/viz/frames.h"
@@ -58,20 +59,37 @@ Message overTheWire(const Message& message) {
   return out;
 }
 
+PrescribedState anyPrescribed() {
+  PrescribedValues values;
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = anyNumber();
+  return prescribedOf(values);
+}
+
+void expectBitwise(const PrescribedState& a, const PrescribedState& b) {
+  const PrescribedValues x = prescribedValues(a), y = prescribedValues(b);
+  for (Eigen::Index i = 0; i < x.size(); ++i) expectBitwise(x[i], y[i]);
+}
+
 TEST(Conversions, RequestsCrossTheWireBitForBit) {
   for (int i = 0; i < 100; ++i) {
     Request request;
     request.key = {generator(), static_cast<std::uint32_t>(generator()),
                    static_cast<std::uint32_t>(generator()), static_cast<Phase>(i % 4)};
     request.t = anyNumber();
+    request.prescribed = anyPrescribed();
     request.interface = anyInterface();
     request.loads = anyLoads();
+    request.q_threshold = anyNumber();
+    request.vortex_limit = i;
     request.want_fields = i % 2 == 1;
     request.want_operator = i % 3 == 1;
     const Request back = fromMessage(overTheWire(toMessage(request)));
     EXPECT_EQ(request.key, back.key);
     expectBitwise(request.t, back.t);
+    expectBitwise(request.prescribed, back.prescribed);
     expectBitwise(request.interface, back.interface);
+    expectBitwise(request.q_threshold, back.q_threshold);
+    EXPECT_EQ(request.vortex_limit, back.vortex_limit);
     expectBitwise(request.loads, back.loads);
     EXPECT_EQ(request.want_fields, back.want_fields);
     EXPECT_EQ(request.want_flow, back.want_flow);
@@ -100,6 +118,12 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
         reply.jacobian->acceleration(k / 6, k % 6) = anyNumber();
       }
     }
+    if (i % 2 == 0) reply.prescribed = anyPrescribed();
+    if (i % 3 == 2) {
+      reply.command.emplace();
+      for (const CommandInfo& info : kCommandTable) (*reply.command).*info.value = anyNumber();
+    }
+    reply.guidance.lost = i % 5 == 0;
     reply.wall_s = anyNumber();
     reply.error = i % 3 == 0 ? "why" : "";
     reply.surface.facets.push_back({1.5f, -2.5f, 3e-38f, 4.0f, -0.0f, 6e30f});
@@ -107,6 +131,12 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
     reply.vortices.push_back({-1.0f, 0.1f, 0.2f, 0.3f, 0.4f});
     const Reply back = fromMessage(overTheWire(toMessage(reply)));
     EXPECT_EQ(reply.key, back.key);
+    ASSERT_EQ(reply.prescribed.has_value(), back.prescribed.has_value());
+    if (reply.prescribed) expectBitwise(*reply.prescribed, *back.prescribed);
+    ASSERT_EQ(reply.command.has_value(), back.command.has_value());
+    for (const CommandInfo& info : kCommandTable)
+      if (reply.command) expectBitwise((*reply.command).*info.value, (*back.command).*info.value);
+    EXPECT_EQ(reply.guidance.lost, back.guidance.lost);
     expectBitwise(reply.interface, back.interface);
     expectBitwise(reply.loads, back.loads);
     expectBitwise(reply.report.courant, back.report.courant);
@@ -174,8 +204,8 @@ TEST(Conversions, AFlowCrossesBitForBit) {
   EXPECT_EQ(flow.pressure, back.flow->pressure);
   EXPECT_EQ(flow.q, back.flow->q);
   ASSERT_EQ(2u, back.flow->wing.size());
-  EXPECT_EQ(0, std::memcmp(flow.wing.data(), back.flow->wing.data(),
-                           2 * sizeof(FlowField::WingFace)));
+  EXPECT_EQ(0,
+            std::memcmp(flow.wing.data(), back.flow->wing.data(), 2 * sizeof(FlowField::WingFace)));
   EXPECT_EQ(nullptr, fromMessage(toMessage(Reply())).flow);
 }
 
@@ -221,7 +251,9 @@ TEST(Conversions, UnusableMessagesAreNamed) {
   request.key.phase = 6;
   EXPECT_EQ("unknown phase 6", problem(request));
   request.protocol = kProtocolVersion + 1;
-  EXPECT_NE(std::string::npos, problem(request).find("protocol version 4 instead of 3"));
+  EXPECT_NE(std::string::npos,
+            problem(request).find("protocol version " + std::to_string(kProtocolVersion + 1) +
+                                  " instead of"));
   ParticipantReply reply = toMessage(Reply());
   EXPECT_EQ("", problem(reply));
   reply.added_mass.resize(35);

@@ -35,7 +35,9 @@ TEST_F(Lockstep, AnotherProtocolVersionIsRefused) {
     client->connect();
     FAIL() << "the client agreed";
   } catch (const ExchangeError& e) {
-    EXPECT_NE(std::string::npos, std::string(e.what()).find("protocol version 3 here, 99 in"));
+    EXPECT_NE(std::string::npos,
+              std::string(e.what()).find("protocol version " + std::to_string(kProtocolVersion) +
+                                         " here, 99 in"));
   }
   Hello old = makeHello(fluid, 1);
   old.role = "wing";

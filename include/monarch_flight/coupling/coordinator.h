@@ -47,11 +47,11 @@ class Coordinator {
   Coordinator(const CoupledModel& model, const CouplingSettings& settings,
               const Participants& participants, std::uint64_t run_id);
 
-  /// Runs all steps; level 0 is delivered first. `control` is asked before every sub-iteration. Never
-  /// throws for a failed run: participants get ABORT, sinks get onEnd(failure), and the outcome
-  /// says why. With a `keeper`, checkpoints are made of the steps that it names, of the last one,
-  /// and of the last committed one when the run is stopped or a step fails; a resumed run goes on
-  /// behind the keeper's step, bit for bit as if it had never ended.
+  /// Runs all steps; level 0 is delivered first. `control` is asked before every sub-iteration.
+  /// Never throws for a failed run: participants get ABORT, sinks get onEnd(failure), and the
+  /// outcome says why. With a `keeper`, checkpoints are made of the steps that it names, of the
+  /// last one, and of the last committed one when the run is stopped or a step fails; a resumed run
+  /// goes on behind the keeper's step, bit for bit as if it had never ended.
   CoupledOutcome run(const std::vector<StepSink*>& sinks, RunControl& control,
                      Keeper* keeper = nullptr);
 
@@ -61,8 +61,8 @@ class Coordinator {
     Trial trial;       // its increments, residual and loads
     Interface answer;  // w~^k
   };
-  struct Interrupted {};  // the control ends the run
-  struct SetBack {};      // the control begins it again
+  struct Interrupted {};                       // the control ends the run
+  struct SetBack {};                           // the control begins it again
   class StepFailure : public NumericalError {  // no solver has committed the step
    public:
     using NumericalError::NumericalError;
@@ -82,8 +82,8 @@ class Coordinator {
   void prescribe(CommittedStep& out);
   void prescribe(const Request& request, CommittedStep& out);
   void solve(RunControl& control, Evaluation& last, CommittedStep& out);
-  bool attempt(Accelerator& accelerator, std::uint32_t number, RunControl& control, Evaluation& last,
-               CommittedStep& out, std::string& error);
+  bool attempt(Accelerator& accelerator, std::uint32_t number, RunControl& control,
+               Evaluation& last, CommittedStep& out, std::string& error);
   bool converge(Accelerator& accelerator, CouplingVector d, RunControl& control, Evaluation& last,
                 CommittedStep& out);
   Evaluation evaluate(const Interface& guess, bool want_operator, CommittedStep& out);
@@ -111,11 +111,11 @@ class Coordinator {
   StepModel step_model_;
   InterfaceBalance balance_;
   std::unique_ptr<Accelerator> accelerator_, cautious_;  // of first and of second attempts
-  Matrix6d added_mass_ = Matrix6d::Zero();  // of the fluid, for the ratio
-  int operator_cost_ = 0;                   // of the fluid, in evaluations
-  Interface committed_;       // level n
-  PrescribedState prescribed_;  // level n
-  Loads loads_;                 // level n
+  Matrix6d added_mass_ = Matrix6d::Zero();               // of the fluid, for the ratio
+  int operator_cost_ = 0;                                // of the fluid, in evaluations
+  Interface committed_;                                  // level n
+  PrescribedState prescribed_;                           // level n
+  Loads loads_;                                          // level n
   StateSnapshot before_;                   // memory of level n, while a step is solved
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known

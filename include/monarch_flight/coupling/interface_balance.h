@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "monarch_flight/coupling/model.h"
-#include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/flight/multibody_dynamics.h"
+#include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/insect/prescribed_motion.h"
 
 namespace monarch_flight {
@@ -19,8 +19,9 @@ class InterfaceBalance {
  public:
   explicit InterfaceBalance(const CoupledModel& model);
 
-  /// `prescribed`, `guess`: what the air was evaluated for; `answer`: what flight and wing made of its
-  /// loads. A bare wing has no dynamics of its own: the structure's side is then the answered motion.
+  /// `prescribed`, `guess`: what the air was evaluated for; `answer`: what flight and wing made of
+  /// its loads. A bare wing has no dynamics of its own: the structure's side is then the answered
+  /// motion.
   InterfacePower power(const PrescribedState& prescribed, const Interface& guess,
                        const Interface& answer, const Loads& loads) const;
 

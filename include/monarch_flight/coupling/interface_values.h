@@ -11,8 +11,8 @@ using InterfaceValues = Eigen::Matrix<double, 30, 1>;
 InterfaceValues interfaceValues(const Interface& interface);
 Interface interfaceOf(const InterfaceValues& values);
 
-/// The same of everything prescribed: the interface, then phi, psi, theta_A (each q, qd, qdd), the rest
-/// angle, the wind's velocity and acceleration.
+/// The same of everything prescribed: the interface, then phi, psi, theta_A (each q, qd, qdd), the
+/// rest angle, the wind's velocity and acceleration.
 using PrescribedValues = Eigen::Matrix<double, 46, 1>;
 PrescribedValues prescribedValues(const PrescribedState& prescribed);
 PrescribedState prescribedOf(const PrescribedValues& values);
@@ -23,7 +23,7 @@ bool same(const Coordinate& a, const Coordinate& b);
 /// Whether two requests are the same: key, time, what is prescribed, interface, loads and wishes.
 bool same(const Request& a, const Request& b);
 
-/// Whether every number of a message is finite.
+/// Whether every number of a message is finite; of commands guidance itself takes care.
 bool finite(const Request& request);
 bool finite(const Reply& reply);
 

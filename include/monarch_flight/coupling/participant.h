@@ -14,15 +14,16 @@
 
 namespace monarch_flight {
 
-/// The three solvers, in the order in which a sub-iteration calls them, and guidance, which is asked
-/// once a step before the first sub-iteration.
+/// The three solvers, in the order in which a sub-iteration calls them, and guidance, which is
+/// asked once a step before the first sub-iteration.
 enum class Role : std::uint8_t { kFluid = 0, kFlight = 1, kWing = 2, kGuidance = 3 };
 inline constexpr std::size_t kRoles = 4;
 const char* roleName(Role role);
 
-/// START: take the initial interface. ITERATE: compute from (committed state, request), keep nothing
-/// that a later ITERATE could see. COMMIT: keep the last answered ITERATE of this step. ABORT: end.
-/// CHECKPOINT: write the committed state of `step` down. RESTORE: after START, take it up again.
+/// START: take the initial interface. ITERATE: compute from (committed state, request), keep
+/// nothing that a later ITERATE could see. COMMIT: keep the last answered ITERATE of this step.
+/// ABORT: end. CHECKPOINT: write the committed state of `step` down. RESTORE: after START, take it
+/// up again.
 enum class Phase : std::uint8_t {
   kStart = 0,
   kIterate = 1,
@@ -49,33 +50,35 @@ struct ExchangeKey {
 
 struct Request {
   ExchangeKey key;
-  double t = 0.0;        ///< time of level `step` [s]
-  /// Everything prescribed at level `step`: solvers own no motion. To guidance: of the committed level.
+  double t = 0.0;  ///< time of level `step` [s]
+  /// Everything prescribed at level `step`: solvers own no motion. To guidance: of the committed
+  /// level.
   PrescribedState prescribed;
   /// Guess of level `step` (START: the initial state). To guidance: the committed level.
   Interface interface;
-  Loads loads;           ///< of this sub-iteration; zero to the fluid; of the committed level to guidance
+  Loads loads;  ///< of this sub-iteration; zero to the fluid; of the committed level to guidance
   bool want_operator = false;  ///< ITERATE to the fluid: answer with the loads' Jacobian too
-  bool want_flow = false;    ///< COMMIT to the fluid: answer with the whole flow
-  bool want_fields = false;  ///< COMMIT to the fluid: answer with surface pressure and vortices
-  double q_threshold = 0.0;  ///< of these vortices [1/s^2]
-  int vortex_limit = 0;      ///< points at most
+  bool want_flow = false;      ///< COMMIT to the fluid: answer with the whole flow
+  bool want_fields = false;    ///< COMMIT to the fluid: answer with surface pressure and vortices
+  double q_threshold = 0.0;    ///< of these vortices [1/s^2]
+  int vortex_limit = 0;        ///< points at most
 };
 
 struct Reply {
   ExchangeKey key;
-  Interface interface;   ///< flight fills body, wing fills theta_R, the rest is as in the request
+  Interface interface;  ///< flight fills body, wing fills theta_R, the rest is as in the request
   std::optional<PrescribedState> prescribed;  ///< of guidance that owns the motion
   std::optional<WingbeatChange> command;      ///< of guidance that leads the case's own wingbeat
-  GuidanceReport guidance;  ///< filled by guidance
-  Loads loads;           ///< filled by the fluid
-  std::optional<LoadOperator> jacobian;  ///< of the loads, at the request's motion; only when asked for
-  FluidReport report;    ///< filled by the fluid
-  double wall_s = 0.0;   ///< time spent computing
-  std::string error;     ///< empty: good; else why the participant cannot go on
-  SurfacePressure surface;           ///< only when asked for
-  std::vector<VortexPoint> vortices; ///< only when asked for
-  std::shared_ptr<const FlowField> flow; ///< only when asked for; null where there is no field
+  GuidanceReport guidance;                    ///< filled by guidance
+  Loads loads;                                ///< filled by the fluid
+  std::optional<LoadOperator>
+      jacobian;             ///< of the loads, at the request's motion; only when asked for
+  FluidReport report;       ///< filled by the fluid
+  double wall_s = 0.0;      ///< time spent computing
+  std::string error;        ///< empty: good; else why the participant cannot go on
+  SurfacePressure surface;  ///< only when asked for
+  std::vector<VortexPoint> vortices;      ///< only when asked for
+  std::shared_ptr<const FlowField> flow;  ///< only when asked for; null where there is no field
 };
 
 /// Messages that were not for this run or not well formed, and were therefore not used.
@@ -91,7 +94,8 @@ struct IgnoredMessages {
   IgnoredMessages& operator+=(const IgnoredMessages& o);
 };
 
-/// One solver, or guidance, as the coordinator sees it. In process: direct call; over ROS: a lockstep exchange.
+/// One solver, or guidance, as the coordinator sees it. In process: direct call; over ROS: a
+/// lockstep exchange.
 class Participant {
  public:
   virtual ~Participant() = default;

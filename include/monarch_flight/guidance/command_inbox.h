@@ -22,7 +22,9 @@ class CommandInbox {
   std::optional<Posted> newest_;
 };
 
-/// Leads the wingbeat by what arrives in an inbox: a person's commands, or a node's.
+/// Leads the wingbeat by what arrives in an inbox: a person's commands, or a node's. A run that is set
+/// back keeps what waits in the box; one that goes on from a checkpoint knows the command that waits for
+/// the next flap, but not one that came within the step that was not committed.
 class PostedCommands : public CommandSource {
  public:
   explicit PostedCommands(std::shared_ptr<CommandInbox> inbox) : inbox_(std::move(inbox)) {}

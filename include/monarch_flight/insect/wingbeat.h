@@ -17,7 +17,16 @@ struct WingbeatChange {
   double abdomen_amplitude = 0.0;  ///< of the abdomen, relative
 };
 
-/// The commands one by one, for everything that goes through all of them.
+/// The commands one by one, for everything that goes through all of them: index in kCommandTable.
+enum Command : std::size_t {
+  kAmplitudeCommand,
+  kFlappingMeanCommand,
+  kFrequencyCommand,
+  kDeviationMeanCommand,
+  kRestAngleCommand,
+  kAbdomenMeanCommand,
+  kAbdomenAmplitudeCommand
+};
 inline constexpr std::size_t kCommands = 7;
 struct CommandInfo {
   const char* name;  ///< in case files, messages (`applied`, `command`) and tables
@@ -39,8 +48,8 @@ struct GuidanceReport {
   WingbeatChange applied;  ///< what the wings fly: the filters' values
   double phase = 0.0;      ///< flaps since t = 0, whole and part
   unsigned clipped = 0;    ///< commands cut to their bounds since the run began
-  unsigned refused = 0;  ///< commands not taken at all (not finite, not for this insect) since then
-  bool lost = false;     ///< a controller has given up (docs/guidance.md)
+  unsigned refused = 0;  ///< commands not taken at all, not being finite, since then
+  bool lost = false;     ///< whoever leads has given up (docs/guidance.md)
 };
 
 }  // namespace monarch_flight

@@ -5,7 +5,7 @@
 
 namespace monarch_flight {
 
-/// Passive pitch of the right wing on its torsional hinge (model.md section 3): the y row, in wing
+/// Passive pitch of the right wing on its torsional hinge: the y row, in wing
 /// axes, of the wing's Newton-Euler equation about its root,
 ///   [ m nu x (a - g) + J alpha + w x J w ]_y = M_y - kappa (theta - theta_0 - rest_angle),
 /// with the root's absolute acceleration a, the total angular velocity w and acceleration alpha. It
