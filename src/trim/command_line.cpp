@@ -15,7 +15,7 @@ constexpr double kRadians = M_PI / 180.0;
 const char kKnown[] =
     "case, fluid, grid, steps_per_flap, fit, climb, speed, pitch, swing, horizon, start, run_in, "
     "iterations, tolerance, difference, threads, jacobian, out, fly, control, samples, inputs, "
-    "time_constant, orbit, speeds, climbs";
+    "time_constant, orbit, gains, speeds, climbs";
 
 /// All key:=value arguments, with what is wrong in them.
 class Arguments {
@@ -240,10 +240,13 @@ TrimCommand trimCommand(const std::vector<std::string>& given) {
   command.out = arguments.text("out");
   command.fly = arguments.whole("fly", 0, 1000, 0);
   command.control = control(arguments);
-  if (command.control && arguments.has("orbit")) {
-    command.orbit = arguments.text("orbit");
-    if (command.orbit != "own" && command.orbit != "trim")
-      arguments.faults.push_back("orbit:=" + command.orbit + ": must be own or trim; choose one");
+  for (auto [key, value] :
+       {std::pair{"orbit", &command.orbit}, std::pair{"gains", &command.gains}}) {
+    if (!command.control || !arguments.has(key)) continue;
+    *value = arguments.text(key);
+    if (*value != "own" && *value != "trim")
+      arguments.faults.push_back(std::string(key) + ":=" + *value +
+                                 ": must be own or trim; choose one");
   }
   arguments.finish();
   return command;

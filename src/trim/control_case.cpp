@@ -61,6 +61,7 @@ void provenance(std::ostream& out, const Case& c, const ControlDesign& d) {
       << multiplierText(d.open_loop) << ";\n"
       << indent << "with it: " << multiplierText(d.closed_loop) << " (largest "
       << number(std::abs(d.closed_loop.front()), 4) << ").\n";
+  if (o.own_gains) out << indent << "The gains are those of the case's own motion.\n";
   if (o.own_orbit)
     out << indent << "The reference at the set point is the case's own motion without commands;\n"
         << indent << "the table is moved with it.\n";

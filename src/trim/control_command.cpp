@@ -61,6 +61,7 @@ int runControl(TrimCommand command, const std::string& config_dir, std::ostream&
   const Case c = loadCase(command.case_name, command.overrides, config_dir);
   options.own_orbit =
       command.orbit.empty() ? written.fluid == FluidKind::kNavierStokes : command.orbit == "own";
+  options.own_gains = command.gains == "own";
   const ControlDesign design = designController(c, options, out);
   printDesign(out, design);
   if (!command.out.empty()) {

@@ -198,9 +198,10 @@ ControlDesign designController(const Case& c, const ControlOptions& options, std
   ControlDesign design;
   design.options = options;
   std::vector<FlapState> orbit = centre.orbit;
-  if (options.own_orbit)
+  if (options.own_orbit || options.own_gains)
     for (int j = 0; j < options.samples; ++j) orbit[std::size_t(j)] = map.prescribedState(j);
-  design.stages = linearise(map, options, centre.orbit, centre.wingbeat);
+  design.stages = options.own_gains ? linearise(map, options, orbit, {})
+                                    : linearise(map, options, centre.orbit, centre.wingbeat);
   ControllerSettings& s = design.settings;
   s.samples = options.samples;
   s.inputs = options.inputs;

@@ -70,7 +70,7 @@ NewtonSettings searchSettings(const ControlOptions& options, bool known) {
   NewtonSettings s;
   s.tolerance = 1e-5;
   s.step_tolerance = 1e-4;
-  s.max_iterations = 40;
+  s.max_iterations = 15;
   s.max_step = 1.0;
   s.damping = 0.0;
   s.broyden = known;

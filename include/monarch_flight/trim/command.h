@@ -19,6 +19,7 @@ struct TrimCommand {
   int fly = 0;                            ///< free flaps flown and shown at the end
   std::optional<ControlOptions> control;  ///< design a controller instead
   std::string orbit;  ///< reference of the controller: trim, own, or "" for what suits the air
+  std::string gains;  ///< of which of them: trim (or ""), own
 };
 
 /// From key:=value arguments. Throws InputError with every fault.

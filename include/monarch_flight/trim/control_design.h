@@ -23,6 +23,8 @@ struct ControlOptions {
   /// periodic flight in quasi-steady air, and the table is moved with it: for flight in another
   /// air.
   bool own_orbit = false;
+  /// The gains are those of that motion, too, instead of those of the periodic flight.
+  bool own_gains = false;
   double state_weight = 0.3, integral_weight = 0.02, input_weight = 3.0;
   static std::array<CommandLimits, kCommands> usualLimits();
 };
