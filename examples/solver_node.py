@@ -22,6 +22,7 @@ import hashlib
 import hmac
 import io
 import os
+import signal
 import threading
 import time
 
@@ -228,6 +229,8 @@ class SolverNode:
         except KeyboardInterrupt:  # the coordinator, interrupted too, makes its last checkpoint
             self.let_coordinator_leave(10)
             return 130
+        finally:  # roslaunch interrupts what is still there; the interpreter is about to leave
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def wait_for_the_end(self, limit=600.0):
         begin = time.monotonic()

@@ -116,7 +116,12 @@ GuidanceSettings readGuidance(Section section, double frequency, const Case& c, 
     section.take("file");
     section.take("rows");
   }
-  if (settings.kind == GuidanceKind::kController) {
+  if (settings.kind == GuidanceKind::kController && !section.has("controller")) {
+    section.take("controller");
+    section.fault("controller",
+                  " is missing: this case has no controller; take climb_controlled, or make one "
+                  "with scripts/trim <case> control:=true out:=<new case>");
+  } else if (settings.kind == GuidanceKind::kController) {
     settings.controller = readLaw(section, time_constant, c, faults);
   } else {
     section.take("controller");  // of a controlled case that is flown otherwise

@@ -123,6 +123,9 @@ TEST_F(GuidedRun, AReplayThatDoesNotFitIsRefused) {
                              {"guidance_file", file}}),
             "column t = ");
   expectHas(faults("climb_printed", {{"guidance", "replay"}}), "guidance/rows is missing");
+  expectHas(faults("climb_printed", {{"guidance", "controller"}}),
+            "guidance/controller is missing: this case has no controller");
+  expectHas(faults("climb_printed", {{"guidance_file", file}}), "only guidance:=replay reads");
   expectHas(faults("climb_printed", {{"guidance", "wizard"}}),
             "guidance/type = 'wizard': must be one of motion, commands");
 }

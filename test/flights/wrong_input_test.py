@@ -60,7 +60,7 @@ class WrongInput(flying.FlightTest):
         self.assertFalse(os.path.exists(self.out()))
 
     def bad_case(self):
-        with open(os.path.join(flying.ROOT, "config", "cases", "climb.yaml")) as f:
+        with open(os.path.join(flying.ROOT, "config", "cases", "climb_printed.yaml")) as f:
             text = f.read()
         path = os.path.join(self.folder, "bad.yaml")
         with open(path, "w") as f:
