@@ -28,10 +28,10 @@ class Subject {
   }
   WingMotion motion(double t) const {
     const PrescribedState s = case_.motion->at(t);
-    return rightWingMotion(case_.insect, s.body, s.angles);
+    return wingMotion(Side::kRight, case_.insect, s.body, s.angles);
   }
   const Air& air() const { return case_.air; }
-  double chord() const { return case_.insect.planform.meanChord(); }
+  double chord() const { return case_.insect.wings.right.planform.meanChord(); }
   /// The case's time step up to the standard grid's resolution, beyond it smaller: the
   /// motion begins at once, and the finer the grid, the faster the flow round the edges then.
   double dt(const Grid& grid) const {
@@ -48,7 +48,7 @@ class Subject {
     s.cells_per_chord = cells_per_chord;
     s.growth_plane = s.growth_normal =  // as from level to level
         std::clamp(1.25 - 0.0025 * (cells_per_chord - 28), 1.12, 1.3);
-    return makeGrid(case_.insect.planform, s);
+    return makeGrid(case_.insect.wings.right.planform, s);
   }
   Case case_;
 };

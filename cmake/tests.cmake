@@ -4,7 +4,8 @@ file(GLOB core_tests CONFIGURE_DEPENDS test/core/*_test.cpp)
 foreach(source ${core_tests})
   get_filename_component(name ${source} NAME_WE)
   add_executable(${name} ${source})
-  target_link_libraries(${name} PRIVATE ${CORE_LAYERS} nlohmann_json::nlohmann_json GTest::gtest GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE ${CORE_LAYERS} nlohmann_json::nlohmann_json PkgConfig::YAML_CPP
+    GTest::gtest GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR}/test ${CMAKE_CURRENT_SOURCE_DIR}/bench)
   target_compile_definitions(${name} PRIVATE TEST_DATA_DIR="${CMAKE_CURRENT_SOURCE_DIR}/test/data"
     CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config")

@@ -18,11 +18,11 @@ Loads noLoads(double) { return {}; }
 /// Momenta of the insect with unequal wings, started with velocity and spin about every axis.
 DynamicsRows momenta(const Case& c, int steps_per_flap) {
   const auto joints = [&](double t) {
-    auto right = insectMotion(c.insect.beta, BodyState(), c.motion->at(t).angles).joints;
-    JointAngles late = c.motion->at(t - kDelay).angles;
+    JointAngles angles = c.motion->at(t).angles;
+    WingAngles& late = angles.wings.left;
+    late = c.motion->at(t - kDelay).angles.wings.left;
     late.psi.q *= 2.0, late.psi.qd *= 2.0, late.psi.qdd *= 2.0;
-    right[1] = insectMotion(c.insect.beta, BodyState(), late).joints[1];
-    return right;
+    return insectMotion(c.insect.beta, BodyState(), angles).joints;
   };
   const auto none = [](double) {
     return std::array<Vector6d, 3>{Vector6d::Zero(), Vector6d::Zero(), Vector6d::Zero()};

@@ -74,17 +74,19 @@ Eigen::Vector4d coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotio
   settings.prescribed_steps = 0;
   settings.tolerance = 1e-13;
   settings.load_tolerance = 1e-9;
-  FluidParticipant fluid(model, std::make_unique<GivenLoads>(1.0 / c.time.period));
+  FluidParticipant fluid(Side::kRight, model, std::make_unique<GivenLoads>(1.0 / c.time.period));
   FlightParticipant flight(model);
   WingParticipant wing(model);
   GuidanceParticipant guidance(model, std::make_unique<MotionGuidance>(std::move(motion)));
   LastStep sink;
   const StopFlag stop{false};
   FlyUntil control(stop);
-  const auto outcome = Coordinator(model, settings, {&fluid, &flight, &wing, &guidance}, 1).run({&sink}, control);
+  const auto outcome =
+      Coordinator(model, settings, {&fluid, &flight, &wing, &guidance, nullptr}, 1)
+          .run({&sink}, control);
   if (!outcome.complete) throw std::runtime_error("coupled flap: " + outcome.failure);
   const Interface& end = sink.last.interface;
-  return {end.body.x.x(), end.body.x.z(), end.body.pitch.q, end.theta_R.q};
+  return {end.body.x.x(), end.body.x.z(), end.body.pitch.q, end.theta.right.q};
 }
 
 /// Error after one flap for falling time steps, and the order between the last two.
@@ -107,22 +109,24 @@ void addOrder(const std::string& name, const Case& c,
 
 /// The hinge alone: theta = theta_0 + A cos(sqrt(kappa / J_yy) t).
 void addPendulum(const Case& c, DynamicsRows& rows) {
-  const double rate = std::sqrt(c.insect.kappa / c.insect.right.J(1, 1));
+  const Wing& wing = c.insect.wings.right;
+  const double rate = std::sqrt(wing.kappa / wing.plate.J(1, 1));
   const double period = 2.0 * M_PI / rate, amplitude = 0.4;
   double before = 0.0, order = 0.0;
   for (int steps : {250, 500, 1000}) {
     Newmark newmark;
     newmark.dt = period / steps;
-    const WingPitchSolver solver(c.insect, 0.0, newmark);
+    const WingPitchSolver solver(Side::kRight, c.insect, 0.0, newmark);
     JointAngles angles;
-    angles.theta = {c.insect.theta_0 + amplitude, 0.0, -rate * rate * amplitude};
+    Coordinate& theta = angles.wings.right.theta;
+    theta = {wing.theta_0 + amplitude, 0.0, -rate * rate * amplitude};
     // The trapezoidal rule keeps the amplitude and turns by 2 atan(rate dt / 2) a step.
     const double turn = 2.0 * std::atan(0.5 * rate * newmark.dt);
     double worst = 0.0;
     for (int n = 1; n <= 10 * steps; ++n) {
-      angles.theta = solver.step(angles.theta, BodyState(), angles, Loads());
-      worst = std::max(
-          worst, std::abs(angles.theta.q - c.insect.theta_0 - amplitude * std::cos(n * turn)));
+      theta = solver.step(theta, BodyState(), angles, Loads());
+      worst =
+          std::max(worst, std::abs(theta.q - wing.theta_0 - amplitude * std::cos(n * turn)));
     }
     const double error = amplitude * std::abs(std::cos(10 * steps * turn - 0.25 * M_PI) -
                                               std::cos(0.25 * M_PI));  // phase error, exact scheme
@@ -140,9 +144,11 @@ void addPendulum(const Case& c, DynamicsRows& rows) {
 void addFreeFall(const Case& c, DynamicsRows& rows) {
   const JointAngles angles = [&] {
     JointAngles still = c.motion->at(0.01).angles;
-    for (Coordinate* q : {&still.phi, &still.psi, &still.theta, &still.theta_A}) {
-      q->qd = q->qdd = 0.0;
+    for (Side side : kSides) {
+      WingAngles& wing = still.wings[side];
+      for (Coordinate* q : {&wing.phi, &wing.psi, &wing.theta}) q->qd = q->qdd = 0.0;
     }
+    still.theta_A.qd = still.theta_A.qdd = 0.0;
     return still;
   }();
   Newmark newmark;
@@ -153,7 +159,7 @@ void addFreeFall(const Case& c, DynamicsRows& rows) {
   body.a = {0.0, 0.0, c.gravity};
   body = withPitch(body, {0.3, 0.0, 0.0});
   constexpr int kSteps = 1000;
-  for (int n = 0; n < kSteps; ++n) body = solver.step(body, body, body, angles, Loads());
+  for (int n = 0; n < kSteps; ++n) body = solver.step(body, body, body, angles, {});
   const double t = kSteps * newmark.dt;
   const Vector3d exact(1.3 * t, 0.0, -0.562 * t + 0.5 * c.gravity * t * t);
   const double error = (body.x - exact).norm() + std::abs(body.pitch.q - 0.3);

@@ -48,10 +48,12 @@ Eigen::Vector4d coupledAccelerations(const FlightSolver& flight, const WingPitch
                                      const BodyState& body, JointAngles angles,
                                      const Loads& loads) {
   constexpr double kProbe = 1e4;  // of the size of theta_R''
-  angles.theta.qdd = 0.0;
-  const Vector3d f0 = flight.accelerations(body, angles, loads);
-  angles.theta.qdd = kProbe;
-  const Vector3d f1 = (flight.accelerations(body, angles, loads) - f0) / kProbe;
+  const auto free = [&](double theta_ddot) -> Vector3d {
+    for (Side side : kSides) angles.wings[side].theta.qdd = theta_ddot;
+    const BodyVector a = flight.accelerations(body, angles, {loads, loads});
+    return {a(kX), a(kZ), a(kPitch)};
+  };
+  const Vector3d f0 = free(0.0), f1 = (free(kProbe) - f0) / kProbe;
   const auto pitch = [&](const Vector3d& a) {
     BodyState moved = body;
     moved.a.x() = a(0);
@@ -73,13 +75,13 @@ LongitudinalFlight::LongitudinalFlight(const Insect& insect, double gravity,
       motion_(std::move(motion)),
       loads_(std::move(loads)),
       flight_(insect, gravity, kAllFree, Newmark()),
-      wing_(insect, gravity, Newmark()) {}
+      wing_(Side::kRight, insect, gravity, Newmark()) {}
 
 OdeState LongitudinalFlight::state(double t) const {
   const PrescribedState s = motion_->at(t);
-  return {s.body.x.x(), s.body.x.z(), s.body.pitch.q,  s.angles.theta.q,
-          s.body.v.x(), s.body.v.z(), s.body.pitch.qd, s.angles.theta.qd,
-          0.0,          0.0};
+  const Coordinate& theta = s.angles.wings.right.theta;
+  return {s.body.x.x(), s.body.x.z(), s.body.pitch.q,  theta.q, s.body.v.x(),
+          s.body.v.z(), s.body.pitch.qd, theta.qd, 0.0, 0.0};
 }
 
 PrescribedState LongitudinalFlight::motion(const OdeState& y, double t) const {
@@ -88,11 +90,11 @@ PrescribedState LongitudinalFlight::motion(const OdeState& y, double t) const {
   s.body.v = {y[4], 0.0, y[5]};
   s.body.a.setZero();
   s.body = withPitch(s.body, {y[2], y[6], 0.0});
-  s.angles.theta = {y[3], y[7], 0.0};
+  for (Side side : kSides) s.angles.wings[side].theta = {y[3], y[7], 0.0};
   const Eigen::Vector4d a = coupledAccelerations(flight_, wing_, s.body, s.angles, loads_(t));
   s.body.a = {a(0), 0.0, a(1)};
   s.body = withPitch(s.body, {y[2], y[6], a(2)});
-  s.angles.theta.qdd = a(3);
+  for (Side side : kSides) s.angles.wings[side].theta.qdd = a(3);
   return s;
 }
 
@@ -100,14 +102,16 @@ void LongitudinalFlight::operator()(const OdeState& y, OdeState& dydt, double t)
   const PrescribedState s = motion(y, t);
   const InsectMotion m = insectMotion(insect_.beta, s.body, s.angles);
   const Loads loads = loads_(t);
-  const auto torque = flight_.dynamics().jointTorques(m, loads);
-  double actuators = 2.0 * insect_.kappa * (s.angles.theta.q - insect_.theta_0) * s.angles.theta.qd;
+  const auto torque = flight_.dynamics().jointTorques(m, {loads, loads});
+  const Wing& hinge = insect_.wings.right;
+  const Coordinate& theta = s.angles.wings.right.theta;
+  double actuators = 2.0 * hinge.kappa * (theta.q - hinge.theta_0) * theta.qd;
   for (std::size_t i = 0; i < 3; ++i) actuators += torque[i].dot(m.joints[i].Omega);
-  const WingMotion wing = rightWingMotion(insect_, s.body, s.angles);
+  const WingMotion wing = wingMotion(Side::kRight, insect_, s.body, s.angles);
   const double air = 2.0 * (loads.force().dot(wing.v_W) + loads.moment().dot(wing.omega_W));
-  dydt = {
-      y[4],      y[5], y[6], y[7], s.body.a.x(), s.body.a.z(), s.body.pitch.qdd, s.angles.theta.qdd,
-      actuators, air};
+  dydt = {y[4],         y[5],         y[6],           y[7],
+          s.body.a.x(), s.body.a.z(), s.body.pitch.qdd, theta.qdd,
+          actuators,    air};
 }
 
 double LongitudinalFlight::kineticEnergy(const OdeState& y, double t) const {
@@ -117,9 +121,10 @@ double LongitudinalFlight::kineticEnergy(const OdeState& y, double t) const {
 
 double LongitudinalFlight::potentialEnergy(const OdeState& y, double t) const {
   const PrescribedState s = motion(y, t);
-  const double stretch = s.angles.theta.q - insect_.theta_0;
+  const Wing& hinge = insect_.wings.right;
+  const double stretch = s.angles.wings.right.theta.q - hinge.theta_0;
   return flight_.dynamics().potentialEnergy(insectMotion(insect_.beta, s.body, s.angles)) +
-         insect_.kappa * stretch * stretch;  // two springs
+         hinge.kappa * stretch * stretch;  // two springs
 }
 
 Loads smoothLoads(double frequency, double t) {

@@ -49,8 +49,8 @@ class FreeInsect {
 };
 
 /// Accelerations (x'', z'', theta_B'', theta_R'') of the coupled pair of the package's own solvers
-/// of flight and wing: both are affine in the other's accelerations, so two plus four evaluations
-/// and one linear equation give them exactly.
+/// of flight and wing, both wings doing the same: both are affine in the other's accelerations, so
+/// two plus four evaluations and one linear equation give them exactly. `loads`: on either wing.
 Eigen::Vector4d coupledAccelerations(const FlightSolver& flight, const WingPitchSolver& wing,
                                      const BodyState& body, JointAngles angles, const Loads& loads);
 
@@ -83,7 +83,7 @@ class LongitudinalFlight {
 };
 
 /// Free in all four coordinates.
-constexpr FreeCoordinates kAllFree{true, true, true, true};
+inline const FreeCoordinates kAllFree{kX, kZ, kPitch, kThetaR};
 /// Air loads of the size of a monarch's at frequency f, smooth, not of any real wing.
 Loads smoothLoads(double frequency, double t);
 

@@ -27,7 +27,7 @@ Vector3d momentumResidual(const MultibodyDynamics& dynamics, const Insect& insec
 DynamicsRows alongHistory(const History& history, const std::string& folder) {
   const Insect insect = publishedInsect(history);
   const MultibodyDynamics dynamics(insect, kGravity);
-  const WingPitchSolver hinge(insect, kGravity, Newmark());
+  const WingPitchSolver hinge(Side::kRight, insect, kGravity, Newmark());
   const Rows rows(folder + "/" + history.file);
   double force = 0, force_scale = 0, torque = 0, torque_scale = 0, moment = 0, moment_scale = 0;
   double pitch = 0, pitch_scale = 0;
@@ -41,7 +41,10 @@ DynamicsRows alongHistory(const History& history, const std::string& folder) {
     Vector3d joints = Vector3d::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
       Vector3d own = rest.segment<3>(6 + 3 * static_cast<int>(i));
-      if (i < 2) own.y() += insect.kappa * ((i == 0 ? s.right : s.left).theta.q - insect.theta_0);
+      if (i < 2) {
+        const Wing& wing = insect.wings[kSides[i]];
+        own.y() += wing.kappa * (s.angles.wings[kSides[i]].theta.q - wing.theta_0);
+      }
       torque = std::max(torque, (m.joints[i].Q * own - s.torques[i]).norm());
       torque_scale = std::max(torque_scale, s.torques[i].norm());
       joints += s.torques[i];
@@ -53,7 +56,7 @@ DynamicsRows alongHistory(const History& history, const std::string& folder) {
     loads.force_pressure = s.loads[0].head<3>();
     loads.moment_pressure = s.loads[0].tail<3>();
     const double theta = rows(n, "X_dot_21");
-    pitch = std::max(pitch, std::abs(hinge.acceleration(s.body, s.right, loads) - theta));
+    pitch = std::max(pitch, std::abs(hinge.acceleration(s.body, s.angles, loads) - theta));
     pitch_scale = std::max(pitch_scale, std::abs(theta));
   }
   const std::string of = std::string(" (") + history.name + ")";

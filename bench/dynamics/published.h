@@ -49,15 +49,11 @@ class Rows {
 /// What one row says: motion, loads and joint torques.
 struct Sample {
   BodyState body;
-  JointAngles right, left;
+  JointAngles angles;
   std::array<Eigen::Matrix<double, 6, 1>, 3> loads;
   /// On right wing, left wing, abdomen, body axes, no spring.
   std::array<Eigen::Vector3d, 3> torques;
-  InsectMotion motion(double beta) const {
-    InsectMotion m = insectMotion(beta, body, right);
-    m.joints[1] = insectMotion(beta, body, left).joints[1];
-    return m;
-  }
+  InsectMotion motion(double beta) const { return insectMotion(beta, body, angles); }
 };
 
 Sample sampleOf(const History& history, const Rows& rows, std::size_t n);

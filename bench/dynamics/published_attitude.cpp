@@ -28,7 +28,8 @@ class HoverUnderLoads {
   void operator()(const OdeState& y, OdeState& dydt, double t) const {
     const SmoothSpline::Value v = spline_.at(t);
     const auto angle = [&](int i) { return Coordinate{v.q(i), v.qd(i), v.qdd(i)}; };
-    const JointAngles angles{angle(1), angle(3), angle(2), angle(0)};
+    const WingAngles wing{angle(1), angle(3), angle(2)};
+    const JointAngles angles{{wing, wing}, angle(0)};
     Loads right;
     right.force_pressure = v.q.segment<3>(4);
     right.moment_pressure = v.q.segment<3>(7);
@@ -61,7 +62,7 @@ class HoverUnderLoads {
     s.body.v = {y[0], 0.0, y[1]};
     s.body = withPitch(s.body, {y[2], y[3], a(2)});
     s.body.a = {a(0), 0.0, a(1)};
-    s.right = s.left = angles;
+    s.angles = angles;
     s.loads = loads;
     const InsectMotion m = s.motion(insect_.beta);
     const Vector15d rest =

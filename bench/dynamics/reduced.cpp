@@ -35,15 +35,16 @@ Eigen::Matrix<double, 8, 1> fullSystem(const Insect& insect, double gravity, Bod
   const MultibodyDynamics dynamics(insect, gravity);
   body.a.setZero();
   body.Omega_dot_B.setZero();
-  angles.theta.qdd = 0.0;
+  for (Side side : kSides) angles.wings[side].theta.qdd = 0.0;
   const InsectMotion m = insectMotion(insect.beta, body, angles);
   Eigen::Matrix<double, 15, 8> free = Eigen::Matrix<double, 15, 8>::Zero();
   free.topLeftCorner<6, 6>().setIdentity();
   free(7, 6) = 1.0;   // Omega_R,y' holds theta_R''
   free(10, 7) = 1.0;  // Omega_L,y' holds theta_L''
   Vector15d rest =
-      dynamics.airForce(m, loads) + dynamics.gravityForce(m) - dynamics.inertialForce(m);
-  const double spring = -insect.kappa * (angles.theta.q - insect.theta_0);
+      dynamics.airForce(m, {loads, loads}) + dynamics.gravityForce(m) - dynamics.inertialForce(m);
+  const Wing& hinge = insect.wings.right;
+  const double spring = -hinge.kappa * (angles.wings.right.theta.q - hinge.theta_0);
   rest(7) += spring;
   rest(10) += spring;
   const Eigen::MatrixXd J = free.transpose() * dynamics.inertia(m) * free;
@@ -55,7 +56,7 @@ Eigen::Matrix<double, 8, 1> fullSystem(const Insect& insect, double gravity, Bod
 DynamicsRows checkReducedForm(const DynamicsFolders& folders) {
   const Case c = loadCase("climb_printed", {}, folders.config);
   const FlightSolver flight(c.insect, c.gravity, kAllFree, Newmark());
-  const WingPitchSolver wing(c.insect, c.gravity, Newmark());
+  const WingPitchSolver wing(Side::kRight, c.insect, c.gravity, Newmark());
   Draw draw;
   constexpr int kStates = 200;
   Eigen::Vector4d scale = Eigen::Vector4d::Zero(), worst = Eigen::Vector4d::Zero();
@@ -65,8 +66,9 @@ DynamicsRows checkReducedForm(const DynamicsFolders& folders) {
     body.x = {draw(1.0), 0.0, draw(1.0)};
     body.v = {draw(2.0), 0.0, draw(2.0)};
     body = withPitch(body, draw.coordinate(1.0, 30.0, 0.0));
-    const JointAngles angles{draw.coordinate(1.2, 70.0, 5e3), draw.coordinate(0.2, 10.0, 1e3),
-                             draw.coordinate(1.0, 60.0, 0.0), draw.coordinate(0.5, 20.0, 2e3)};
+    const WingAngles own{draw.coordinate(1.2, 70.0, 5e3), draw.coordinate(0.2, 10.0, 1e3),
+                         draw.coordinate(1.0, 60.0, 0.0)};
+    const JointAngles angles{{own, own}, draw.coordinate(0.5, 20.0, 2e3)};
     Loads loads;
     loads.force_pressure = draw.vector(1e-2);
     loads.moment_pressure = draw.vector(3e-4);

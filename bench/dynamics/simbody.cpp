@@ -89,8 +89,8 @@ class Engine {
             rigid(insect.abdomen.m, insect.abdomen.nu, insect.abdomen.J));
     give(
         abdomen, [](const JointAngles& a) { return a.theta_A; }, 1.0);
-    right_ = wing(insect, insect.right, 1.0);
-    left_ = wing(insect, insect.left, -1.0);
+    right_ = wing(Side::kRight, insect);
+    left_ = wing(Side::kLeft, insect);
     const auto on_right = [frequency](double t) { return smoothLoads(frequency, t); };
     SimTK::Force::Custom(forces_, new WingLoad(right_, on_right));
     SimTK::Force::Custom(
@@ -103,9 +103,10 @@ class Engine {
         state_, SimTK::Transform(SimTK::Rotation(s.body.pitch.q, SimTK::YAxis), vec(s.body.x)));
     body_.setUToFitVelocity(state_,
                             SimTK::SpatialVec(SimTK::Vec3(0, s.body.pitch.qd, 0), vec(s.body.v)));
-    for (SimTK::MobilizedBody::Pin* wing : {&right_, &left_}) {
-      wing->setOneQ(state_, 0, s.angles.theta.q);
-      wing->setOneU(state_, 0, s.angles.theta.qd);
+    for (Side side : kSides) {
+      SimTK::MobilizedBody::Pin& wing = side == Side::kRight ? right_ : left_;
+      wing.setOneQ(state_, 0, s.angles.wings[side].theta.q);
+      wing.setOneU(state_, 0, s.angles.wings[side].theta.qd);
     }
     system_.realize(state_, SimTK::Stage::Time);
     system_.prescribe(state_);
@@ -143,19 +144,22 @@ class Engine {
   }
 
   /// Flapping, deviation (both given, on massless links) and the free pitch on its spring.
-  SimTK::MobilizedBody::Pin wing(const Insect& insect, const Appendage& part, double side) {
+  SimTK::MobilizedBody::Pin wing(Side side, const Insect& insect) {
+    const Wing& own = insect.wings[side];
+    const Appendage part = side == Side::kRight ? own.plate : mirrored(own.plate);
+    const double sign = side == Side::kRight ? 1.0 : -1.0;
     const SimTK::Transform stroke(SimTK::Rotation(insect.beta, SimTK::YAxis), vec(part.mu));
     SimTK::MobilizedBody::Pin flap = pin(body_, stroke, 'x', SimTK::Body::Massless());
     give(
-        flap, [](const JointAngles& a) { return a.phi; }, side);
+        flap, [side](const JointAngles& a) { return a.wings[side].phi; }, sign);
     SimTK::MobilizedBody::Pin deviation =
         pin(flap, SimTK::Transform(), 'z', SimTK::Body::Massless());
     give(
-        deviation, [](const JointAngles& a) { return a.psi; }, -side);
+        deviation, [side](const JointAngles& a) { return a.wings[side].psi; }, -sign);
     SimTK::MobilizedBody::Pin pitch =
         pin(deviation, SimTK::Transform(), 'y', rigid(part.m, part.nu, part.J));
-    SimTK::Force::MobilityLinearSpring(forces_, pitch, SimTK::MobilizerQIndex(0), insect.kappa,
-                                       insect.theta_0);
+    SimTK::Force::MobilityLinearSpring(forces_, pitch, SimTK::MobilizerQIndex(0), own.kappa,
+                                       own.theta_0);
     return pitch;
   }
 

@@ -16,9 +16,9 @@ FlapSeries flown(const GridSettings& grid, int steps_per_flap, int flaps) {
   const double dt = c.time.period / steps_per_flap;
   auto motion = [&](double t) {
     const PrescribedState s = c.motion->at(t);
-    return rightWingMotion(c.insect, s.body, s.angles);
+    return wingMotion(Side::kRight, c.insect, s.body, s.angles);
   };
-  const auto flow = makeNavierStokes(c.insect.planform, c.air, grid);
+  const auto flow = makeNavierStokes(c.insect.wings.right.planform, c.air, grid);
   flow->start(motion(0), dt);
   FlapSeries s;
   for (int n = 1; n <= flaps * steps_per_flap; ++n) {

@@ -50,44 +50,77 @@ void AddedMassNewton::learn(const Trial& trial) {
     operator_ = trial.jacobian;
     fetched_ = step_;
   } else if (previous_ && operator_) {
-    Vector6d u, a, u_before, a_before;
-    model_.airMotion(trial.d, u, a);
-    model_.airMotion(previous_->d, u_before, a_before);
-    const Vector6d du = u - u_before, change = vector(trial.loads) - vector(previous_->loads);
-    const Vector6d missing =
-        change - operator_->velocity * du - operator_->acceleration * (a - a_before);
-    Vector6d weighted = du;  // velocities of the same size for both halves
-    weighted.tail<3>() *= length_scale_ * length_scale_;
-    const double size = weighted.dot(du);
-    const Vector6d loads = vector(trial.loads);
-    const bool heard = change.head<3>().norm() > kNoise * loads.head<3>().norm() &&
-                       change.tail<3>().norm() > kNoise * loads.tail<3>().norm();
-    if (size > 0.0 && heard) operator_->velocity += missing * (weighted / size).transpose();
+    for (Side side : model_.sides()) update(side, trial);
   }
   previous_ = trial;
 }
 
-Loads AddedMassNewton::predicted(const Trial& trial, const CouplingVector& d) const {
-  Vector6d u, a, u_trial, a_trial;
-  model_.airMotion(d, u, a);
-  model_.airMotion(trial.d, u_trial, a_trial);
-  const Vector6d change =
-      operator_->velocity * (u - u_trial) + operator_->acceleration * (a - a_trial);
-  Loads loads = trial.loads;
-  loads.force_pressure += change.head<3>();
-  loads.moment_pressure += change.tail<3>();
+void AddedMassNewton::update(Side side, const Trial& trial) {
+  LoadOperator& at_hand = (*operator_)[side];
+  const AirMotion now = model_.airMotion(side, trial.d);
+  const AirMotion before = model_.airMotion(side, previous_->d);
+  const Vector6d du = now.velocity - before.velocity, loads = vector(trial.loads[side]);
+  const Vector6d change = loads - vector(previous_->loads[side]);
+  const Vector6d missing = change - at_hand.velocity * du -
+                           at_hand.acceleration * (now.acceleration - before.acceleration);
+  Vector6d weighted = du;  // velocities of the same size for both halves
+  weighted.tail<3>() *= length_scale_ * length_scale_;
+  const double size = weighted.dot(du);
+  const bool heard = change.head<3>().norm() > kNoise * loads.head<3>().norm() &&
+                     change.tail<3>().norm() > kNoise * loads.tail<3>().norm();
+  if (size > 0.0 && heard) at_hand.velocity += missing * (weighted / size).transpose();
+}
+
+PerWing<Loads> AddedMassNewton::predicted(const Trial& trial, const CouplingVector& d) const {
+  PerWing<Loads> loads = trial.loads;
+  for (Side side : model_.sides()) {
+    const LoadOperator& K = (*operator_)[side];
+    const AirMotion now = model_.airMotion(side, d), then = model_.airMotion(side, trial.d);
+    const Vector6d change = K.velocity * (now.velocity - then.velocity) +
+                            K.acceleration * (now.acceleration - then.acceleration);
+    loads[side].force_pressure += change.head<3>();
+    loads[side].moment_pressure += change.tail<3>();
+  }
+  if (model_.sides().count == 1) loads.left = loads.right;
   return loads;
 }
 
-/// dr/dd of the predicted problem; minus the identity where a coordinate is prescribed.
-Eigen::Matrix4d AddedMassNewton::residualJacobian(const Trial& trial,
-                                                  const CouplingVector& base) const {
-  Eigen::Matrix4d J = -Eigen::Matrix4d::Identity();
-  for (int i = 0; i < 4; ++i) {
-    if (!model_.isFree()[static_cast<std::size_t>(i)]) continue;
-    CouplingVector d = trial.d;
-    d(i) += kDifference;
-    J.col(i) = (model_.residual(d, predicted(trial, d)) - base) / kDifference;
+/// Where both wings pitch freely: how far they pitch alike, and against each other. In a symmetric
+/// step nothing of the first ever reaches the second, so that it stays symmetric to the last bit.
+CouplingVector AddedMassNewton::toModes(const CouplingVector& d) const {
+  CouplingVector modes = d;
+  if (model_.free()[kThetaR] && model_.free()[kThetaL]) {
+    modes(kThetaR) = 0.5 * (d(kThetaR) + d(kThetaL));
+    modes(kThetaL) = 0.5 * (d(kThetaR) - d(kThetaL));
+  }
+  return modes;
+}
+
+CouplingVector AddedMassNewton::fromModes(const CouplingVector& modes) const {
+  CouplingVector d = modes;
+  if (model_.free()[kThetaR] && model_.free()[kThetaL]) {
+    d(kThetaR) = modes(kThetaR) + modes(kThetaL);
+    d(kThetaL) = modes(kThetaR) - modes(kThetaL);
+  }
+  return d;
+}
+
+/// dr/dd of the predicted problem, in modes; minus the identity where a coordinate is prescribed.
+/// What a mirror turns round gets differences of both signs, so that a flight and its mirror image
+/// are solved alike.
+CoordinateMatrix AddedMassNewton::residualJacobian(const Trial& trial,
+                                                   const CouplingVector& base) const {
+  CoordinateMatrix J = -CoordinateMatrix::Identity();
+  for (std::size_t i = 0; i < kCoordinates; ++i) {
+    if (!model_.free()[i]) continue;
+    const auto column = static_cast<Eigen::Index>(i);
+    const CouplingVector step = fromModes(kDifference * CouplingVector::Unit(column));
+    const auto at = [&](const CouplingVector& d) { return model_.residual(d, predicted(trial, d)); };
+    const bool turned = i == kY || i == kRoll || i == kYaw || i == kThetaL;
+    const CouplingVector change =
+        turned ? CouplingVector(0.5 * (at(trial.d + step) - at(trial.d - step)))
+               : CouplingVector(at(trial.d + step) - base);
+    J.col(column) = toModes(change / kDifference);
   }
   return J;
 }
@@ -97,10 +130,10 @@ Proposal AddedMassNewton::advance(const Trial& trial) {
   ++advances_;
   const CouplingVector base = model_.residual(trial.d, trial.loads);
   const CouplingVector offset = trial.residual - base;  // participants may differ from their copy
-  const Eigen::PartialPivLU<Eigen::Matrix4d> factor(residualJacobian(trial, base));
+  const Eigen::PartialPivLU<CoordinateMatrix> factor(residualJacobian(trial, base));
   CouplingVector d = trial.d, residual = trial.residual;
   for (int i = 0; i < kNewton; ++i) {
-    const CouplingVector step = factor.solve(residual);
+    const CouplingVector step = fromModes(factor.solve(toModes(residual)));
     if (!step.allFinite()) break;
     d -= step;
     if (step.cwiseAbs().maxCoeff() <= kSolved) break;
@@ -116,10 +149,12 @@ void AddedMassNewton::endStep(const Trial& last) {
 
 void AddedMassNewton::memory(StateVisitor& state) {
   bool known = operator_.has_value();
-  LoadOperator at_hand = operator_.value_or(LoadOperator());
+  PerWing<LoadOperator> at_hand = operator_.value_or(PerWing<LoadOperator>());
   state("operator_known", known);
-  state("operator_velocity", at_hand.velocity);
-  state("operator_acceleration", at_hand.acceleration);
+  state("operator_velocity", at_hand.right.velocity);
+  state("operator_acceleration", at_hand.right.acceleration);
+  state("operator_left_velocity", at_hand.left.velocity);
+  state("operator_left_acceleration", at_hand.left.acceleration);
   state("operator_fetched", fetched_);
   state("operator_missed", missed_);
   if (!state.loading()) return;

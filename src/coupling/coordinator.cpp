@@ -20,8 +20,9 @@ constexpr double kCautious = 0.25;  // relaxation of the second attempt over tha
 
 /// What the coordinator itself took of a step that began at `begin`.
 double ownSeconds(Clock::time_point begin, const CommittedStep& step) {
-  return secondsSince(begin) -
-         std::accumulate(step.wall_s.begin(), step.wall_s.end(), step.exchange_s);
+  const auto of = [&step](Role role) { return step.wall_s[static_cast<std::size_t>(role)]; };
+  return secondsSince(begin) - step.exchange_s - std::max(of(Role::kFluid), of(Role::kFluidLeft)) -
+         of(Role::kFlight) - of(Role::kWing) - of(Role::kGuidance);
 }
 
 /// Smaller relaxation for a second attempt at a step.
@@ -51,7 +52,16 @@ Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& sett
       step_model_(checked(model, settings), settings.length_scale),
       balance_(model),
       accelerator_(makeAccelerator(settings, step_model_)),
-      cautious_(makeAccelerator(cautious(settings), step_model_)) {}
+      cautious_(makeAccelerator(cautious(settings), step_model_)),
+      companion_(model.mirrored ? nullptr : std::make_unique<Companion>()) {
+  for (Role role : kAllRoles) {
+    const bool needed = role != Role::kFluidLeft || !model.mirrored;
+    const bool present = participants_[static_cast<std::size_t>(role)] != nullptr;
+    if (needed != present)
+      throw std::invalid_argument(std::string("participants: ") + roleName(role) +
+                                  (needed ? " is missing" : " is not for mirrored wings"));
+  }
+}
 
 CoupledOutcome Coordinator::run(const std::vector<StepSink*>& sinks, RunControl& control,
                                 Keeper* keeper) {
@@ -107,15 +117,14 @@ std::uint32_t Coordinator::start() {
   prescribe(request, out);
   request.prescribed = out.guided;
   request.interface = out.guided.interface();
-  for (Role role : {Role::kFluid, Role::kFlight, Role::kWing}) {
-    const Reply reply = ask(role, request, out);
-    if (role == Role::kFluid) out.fluid = reply.report;
-  }
-  added_mass_ = out.fluid.added_mass;
+  const PerWing<Reply> air = askAir(request, out);
+  ask(Role::kFlight, request, out);
+  ask(Role::kWing, request, out);
+  added_mass_ = {air.right.report.added_mass, air.left.report.added_mass};
   operator_cost_ = out.fluid.operator_cost;
   accelerator_->forget();
   levels_ = 0;
-  force_scale_ = moment_scale_ = 0.0;
+  force_scale_ = moment_scale_ = {};
   increment_scales_.setZero();
   history_.fill(CouplingVector::Zero());
   if (keeper_ && keeper_->resumed()) {
@@ -123,7 +132,7 @@ std::uint32_t Coordinator::start() {
     return *keeper_->resumed();
   }
   out.interface = request.interface;
-  finish(Loads(), out);
+  finish({}, out);
   out.coupling_s = ownSeconds(begin, out);
   outputs_s_ = 0.0;
   deliver(out);
@@ -164,6 +173,7 @@ void Coordinator::abort(std::uint32_t step) noexcept {
   Request request;
   request.key = keyOf(step, 0, Phase::kAbort);
   for (Participant* participant : participants_) {
+    if (participant == nullptr) continue;
     try {
       participant->exchange(request);
     } catch (...) {  // the run is over; who cannot hear it has its own watchdog
@@ -175,12 +185,8 @@ ExchangeKey Coordinator::keyOf(std::uint32_t step, std::uint32_t iteration, Phas
   return {run_id_, step, iteration, phase, resets_};
 }
 
-Reply Coordinator::ask(Role role, const Request& request, CommittedStep& out) {
-  const std::size_t index = static_cast<std::size_t>(role);
-  const auto begin = Clock::now();
-  Reply reply = participants_[index]->exchange(request);
-  out.wall_s[index] += reply.wall_s;
-  out.exchange_s += secondsSince(begin) - reply.wall_s;
+Reply Coordinator::exchange(Role role, const Request& request) {
+  Reply reply = participants_[static_cast<std::size_t>(role)]->exchange(request);
   if (!reply.error.empty()) throw NumericalError(reply.error);
   const std::string place =
       std::string(roleName(role)) + ", step " + std::to_string(request.key.step) + ", iteration " +
@@ -189,6 +195,32 @@ Reply Coordinator::ask(Role role, const Request& request, CommittedStep& out) {
     throw ExchangeError(place + "the answer belongs to another request");
   if (!finite(reply)) throw NumericalError(place + "non-finite number in the answer");
   return reply;
+}
+
+Reply Coordinator::ask(Role role, const Request& request, CommittedStep& out) {
+  const auto begin = Clock::now();
+  Reply reply = exchange(role, request);
+  out.wall_s[static_cast<std::size_t>(role)] += reply.wall_s;
+  out.exchange_s += secondsSince(begin) - reply.wall_s;
+  return reply;
+}
+
+/// The air of both wings, at the same time where both are solved; `out` gets what it reports.
+PerWing<Reply> Coordinator::askAir(const Request& request, CommittedStep& out) {
+  if (!companion_) {
+    const Reply right = ask(Role::kFluid, request, out);
+    out.fluid = right.report;
+    return {right, right};
+  }
+  const auto begin = Clock::now();
+  PerWing<Reply> air;
+  companion_->both([&] { air.right = exchange(Role::kFluid, request); },
+                   [&] { air.left = exchange(Role::kFluidLeft, request); });
+  for (Side side : kSides)
+    out.wall_s[static_cast<std::size_t>(kFluids[side])] += air[side].wall_s;
+  out.exchange_s += secondsSince(begin) - std::max(air.right.wall_s, air.left.wall_s);
+  out.fluid = together(air.right.report, air.left.report);
+  return air;
 }
 
 }  // namespace monarch_flight

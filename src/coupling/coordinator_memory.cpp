@@ -2,36 +2,40 @@
 #include "monarch_flight/coupling/coordinator.h"
 
 namespace monarch_flight {
-namespace {
-
-constexpr Role kAll[] = {Role::kFluid, Role::kFlight, Role::kWing, Role::kGuidance};
-
-}  // namespace
 
 /// What one step leaves to the next. An accelerator of another kind begins without a memory.
 void Coordinator::memory(StateVisitor& state) {
   state("committed", committed_);
   state("prescribed", prescribed_);
-  state("loads", loads_);
+  state("loads", loads_.right);
+  state("loads_left", loads_.left);
   state("increments_n", history_[0]);
   state("increments_n_minus_1", history_[1]);
   state("increments_n_minus_2", history_[2]);
   state("levels", levels_);
-  state("force_scale", force_scale_);
-  state("moment_scale", moment_scale_);
+  for (Side side : kSides) {
+    const bool right = side == Side::kRight;
+    state(right ? "force_scale" : "force_scale_left", force_scale_[side]);
+    state(right ? "moment_scale" : "moment_scale_left", moment_scale_[side]);
+  }
   state("increment_scales", increment_scales_);
   Relaxation kind = settings_.relaxation;
   state("relaxation", kind);
   if (kind == settings_.relaxation) accelerator_->memory(state);
 }
 
+void Coordinator::askAll(const Request& request) {
+  for (Role role : kAllRoles) {
+    if (participants_[static_cast<std::size_t>(role)] != nullptr) exchange(role, request);
+  }
+}
+
 void Coordinator::keep(std::uint32_t step) {
   keeper_->open(step);
-  CommittedStep unused;
   Request request;
   request.key = keyOf(step, 0, Phase::kCheckpoint);
   try {
-    for (Role role : kAll) ask(role, request, unused);
+    askAll(request);
   } catch (const NumericalError& e) {  // no reason to try the step once more
     throw ExchangeError(e.what());
   }
@@ -55,10 +59,9 @@ void Coordinator::keepBeforeStep(std::uint32_t step) {
 
 /// Takes up the state of the keeper's step; the run has been started.
 void Coordinator::resume() {
-  CommittedStep unused;
   Request request;
   request.key = keyOf(*keeper_->resumed(), 0, Phase::kRestore);
-  for (Role role : kAll) ask(role, request, unused);
+  askAll(request);
   keeper_->load([this](StateVisitor& state) { memory(state); });
 }
 

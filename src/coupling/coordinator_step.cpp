@@ -87,8 +87,8 @@ bool Coordinator::attempt(Accelerator& accelerator, std::uint32_t number, RunCon
     failed.step = out.step;
     failed.iteration = static_cast<std::uint32_t>(out.iterations.size());
     failed.load_residual = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (step_model_.isFree()[i]) failed.residual[i] = failed.load_residual;
+    for (std::size_t i = 0; i < kCoordinates; ++i) {
+      if (model_.free[i]) failed.residual[i] = failed.load_residual;
     }
     out.iterations.push_back(failed);
   }
@@ -100,7 +100,7 @@ bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, RunContro
                            Evaluation& last, CommittedStep& out) {
   accelerator.beginStep(out.step);
   double first = 0.0;
-  std::optional<Loads> expected;
+  std::optional<PerWing<Loads>> expected;
   for (int k = 0; k < settings_.max_sub_iterations; ++k) {
     if (!out.iterations.empty()) heed(control, out);
     last = evaluate(step_model_.interface(d), accelerator.wantsOperator(operator_cost_), out);
@@ -125,12 +125,12 @@ bool Coordinator::converge(Accelerator& accelerator, CouplingVector d, RunContro
 
 /// The residual of a sub-iteration, into its record too. The first one has no loads to compare
 /// with.
-void Coordinator::judge(const std::optional<Loads>& expected, Evaluation& evaluation,
+void Coordinator::judge(const std::optional<PerWing<Loads>>& expected, Evaluation& evaluation,
                         CommittedStep& out) {
   Trial& trial = evaluation.trial;
   trial.residual = step_model_.increments(evaluation.answer) - trial.d;
   IterationRecord& record = out.iterations.back();
-  std::copy_n(trial.residual.data(), 4, record.residual.begin());
+  std::copy_n(trial.residual.data(), kCoordinates, record.residual.begin());
   record.load_residual =
       expected ? std::max(loadChange(trial.loads, *expected), imbalance(trial.residual, trial.d))
                : 1.0;
@@ -147,25 +147,25 @@ Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, bool want_
 
   Request to_fluid = request;
   to_fluid.want_operator = want_operator;
-  const Reply air = ask(Role::kFluid, to_fluid, out);
-  if (want_operator && !air.jacobian) {
+  const PerWing<Reply> air = askAir(to_fluid, out);
+  if (want_operator && !(air.right.jacobian && air.left.jacobian)) {
     throw ExchangeError(
         "the fluid did not answer with its load operator, which coupling/relaxation = added_mass "
         "needs: let it answer, or take iqn_ils");
   }
   out.fluid_evaluations += 1 + (want_operator ? operator_cost_ : 0);
-  evaluation.trial.jacobian = air.jacobian;
+  if (want_operator) evaluation.trial.jacobian = {*air.right.jacobian, *air.left.jacobian};
   Request with_loads = request;
-  with_loads.loads = evaluation.trial.loads = air.loads;
+  with_loads.loads = evaluation.trial.loads = {air.right.loads, air.left.loads};
   const Reply body = ask(Role::kFlight, with_loads, out);
   with_loads.interface.body = body.interface.body;
   const Reply wing = ask(Role::kWing, with_loads, out);
-  evaluation.answer = {body.interface.body, wing.interface.theta_R};
+  evaluation.answer = {body.interface.body, wing.interface.theta};
 
   IterationRecord record;
   record.step = out.step;
   record.iteration = request.key.iteration;
-  record.fluid_wall_s = air.wall_s;
+  record.fluid_wall_s = std::max(air.right.wall_s, air.left.wall_s);
   out.iterations.push_back(record);
   return evaluation;
 }
@@ -179,17 +179,19 @@ void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
   const bool vortices = due(out.step, pictures.vortices_every);
   request.q_threshold = pictures.q_threshold;
   request.vortex_limit = pictures.vortex_limit;
-  for (Role role : {Role::kFluid, Role::kFlight, Role::kWing, Role::kGuidance}) {
-    if (role == Role::kGuidance) request.key.iteration = 0;  // it was asked once
-    request.want_fields = role == Role::kFluid && (surface || vortices);
-    request.want_flow = role == Role::kFluid && due(out.step, pictures.flow_every);
-    Reply reply = ask(role, request, out);
-    if (role != Role::kFluid) continue;
-    out.fluid = reply.report;
-    if (surface) out.surface = std::move(reply.surface);
-    out.flow = std::move(reply.flow);
-    if (vortices) out.vortices = std::move(reply.vortices);
+  Request to_fluid = request;
+  to_fluid.want_fields = surface || vortices;
+  to_fluid.want_flow = due(out.step, pictures.flow_every);
+  PerWing<Reply> air = askAir(to_fluid, out);
+  for (Side side : kSides) {
+    if (surface) out.surface[side] = std::move(air[side].surface);
+    if (vortices) out.vortices[side] = std::move(air[side].vortices);
+    out.flow[side] = std::move(air[side].flow);
   }
+  ask(Role::kFlight, request, out);
+  ask(Role::kWing, request, out);
+  request.key.iteration = 0;  // guidance was asked once
+  ask(Role::kGuidance, request, out);
   out.interface = request.interface;
   finish(last.trial.loads, out);
   balance(last, out);
@@ -203,15 +205,17 @@ void Coordinator::balance(const Evaluation& last, CommittedStep& out) const {
   out.added_mass_ratio = balance_.addedMassRatio(out.guided, guess, added_mass_);
 }
 
-void Coordinator::finish(const Loads& loads, CommittedStep& out) {
-  for (const Participant* participant : participants_) out.ignored += participant->ignored();
-  out.loads = loads;
-  out.angles = out.guided.anglesWith(out.interface.theta_R);
-  const double beta = model_.insect.beta;
-  Eigen::Vector3d force_B = wingAttitude(beta, out.angles) * loads.force();
-  if (!model_.insect.bare_wing) {
-    force_B += leftWingAttitude(beta, out.angles) * mirrored(loads).force();
+void Coordinator::finish(const PerWing<Loads>& loads, CommittedStep& out) {
+  for (const Participant* participant : participants_) {
+    if (participant != nullptr) out.ignored += participant->ignored();
   }
+  out.loads = loads;
+  out.angles = out.guided.anglesWith(out.interface.theta);
+  const double beta = model_.insect.beta;
+  const auto& [right, left] = out.angles.wings;
+  Eigen::Vector3d force_B = wingAttitude(Side::kRight, beta, right) * loads.right.force();
+  if (!model_.insect.bare_wing)
+    force_B += wingAttitude(Side::kLeft, beta, left) * mirrored(loads.left).force();
   out.force_I = out.interface.body.R_IB * force_B;
 
   committed_ = out.interface;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kScaleDecay = 0.999;     // of the running scales, per step
 constexpr std::size_t kHistoryShown = 8;  // residuals in the diagnosis of a failure
-constexpr const char* kNames[4] = {"x", "z", "theta_B", "theta_R"};
 
 double relative(double change, double scale) { return change == 0.0 ? 0.0 : change / scale; }
 
@@ -27,11 +26,18 @@ CouplingVector Coordinator::predictedIncrements() const {
   }
 }
 
-double Coordinator::loadChange(const Loads& loads, const Loads& previous) const {
-  const double force = (loads.force() - previous.force()).norm();
-  const double moment = (loads.moment() - previous.moment()).norm();
-  return std::max(relative(force, std::max(force_scale_, loads.force().norm())),
-                  relative(moment, std::max(moment_scale_, loads.moment().norm())));
+double Coordinator::loadChange(const PerWing<Loads>& loads,
+                               const PerWing<Loads>& previous) const {
+  double largest = 0.0;
+  for (Side side : model_.sides()) {
+    const Loads &now = loads[side], &then = previous[side];
+    const double force = (now.force() - then.force()).norm();
+    const double moment = (now.moment() - then.moment()).norm();
+    largest =
+        std::max({largest, relative(force, std::max(force_scale_[side], now.force().norm())),
+                  relative(moment, std::max(moment_scale_[side], now.moment().norm()))});
+  }
+  return largest;
 }
 
 double Coordinator::imbalance(const CouplingVector& residual,
@@ -40,19 +46,25 @@ double Coordinator::imbalance(const CouplingVector& residual,
   return residual.cwiseAbs().cwiseQuotient(scales).maxCoeff();
 }
 
-void Coordinator::updateScales(const Loads& loads) {
+void Coordinator::updateScales(const PerWing<Loads>& loads) {
   // Worth noticing: a motion by the tolerance, and the load that moves the wing by it in one step.
   const double noticed = settings_.tolerance;
-  const Appendage& wing = model_.insect.right;
   const CouplingVector& scales = step_model_.scales();
-  force_scale_ =
-      std::max({kScaleDecay * force_scale_, loads.force().norm(), wing.m * scales[0] * noticed});
-  moment_scale_ = std::max(
-      {kScaleDecay * moment_scale_, loads.moment().norm(), wing.J(1, 1) * scales[3] * noticed});
+  for (Side side : model_.sides()) {
+    const Appendage& wing = model_.insect.wings[side].plate;
+    const double force = loads[side].force().norm(), moment = loads[side].moment().norm();
+    double &force_scale = force_scale_[side], &moment_scale = moment_scale_[side];
+    force_scale = std::max({kScaleDecay * force_scale, force, wing.m * scales[kX] * noticed});
+    moment_scale =
+        std::max({kScaleDecay * moment_scale, moment, wing.J(1, 1) * scales[kThetaR] * noticed});
+  }
   increment_scales_ =
       (kScaleDecay * increment_scales_).cwiseMax(history_[0].cwiseAbs()).cwiseMax(noticed);
-  increment_scales_[0] = increment_scales_[1] =
-      std::max(increment_scales_[0], increment_scales_[1]);
+  // What flies in any direction is measured by the largest: x, y, z; roll, pitch, yaw; both wings.
+  for (const auto& [first, count] : {std::pair{0, 3}, {3, 3}, {6, 2}}) {
+    auto alike = increment_scales_.segment(first, count);
+    alike.setConstant(alike.maxCoeff());
+  }
 }
 
 std::string Coordinator::notConverged(const CommittedStep& step, const std::string& error) const {
@@ -62,10 +74,10 @@ std::string Coordinator::notConverged(const CommittedStep& step, const std::stri
   text << "step " << step.step << " (t = " << step.t << " s) did not converge in " << all.size()
        << " sub-iterations of two attempts, the second one from a lower predictor and with smaller "
           "relaxation; last residuals:";
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < kCoordinates; ++i) {
     const double residual = std::abs(all.back().residual[i]);
-    if (!step_model_.isFree()[i]) continue;
-    text << ' ' << kNames[i] << ' ' << residual
+    if (!model_.free[i]) continue;
+    text << ' ' << kCoordinateTable[i].name << ' ' << residual
          << (residual > settings_.tolerance ? " (too large)" : " (good)") << ',';
   }
   text << " loads " << all.back().load_residual

@@ -5,8 +5,9 @@
 namespace monarch_flight {
 namespace {
 
-using Matrix6x4 = Eigen::Matrix<double, 6, 4>;
-using Matrix15x4 = Eigen::Matrix<double, 15, 4>;
+constexpr int n = kCoordinates;
+using Matrix6xN = Eigen::Matrix<double, 6, n>;
+using Matrix15xN = Eigen::Matrix<double, 15, n>;
 
 Vector6d acceleration(const WingMotion& motion) {
   Vector6d a;
@@ -19,19 +20,20 @@ double along(const WingMotion& motion, const Loads& loads) {
   return loads.force().dot(motion.v_W) + loads.moment().dot(motion.omega_W);
 }
 
-/// d(a_W; alpha_W)/d(x'', z'', theta_B'', theta_R''): rigid motion is linear in the accelerations.
-Matrix6x4 wingAcceleration(const Insect& insect, const Interface& at, const JointAngles& angles) {
-  const Vector6d base = acceleration(rightWingMotion(insect, at.body, angles));
-  Matrix6x4 T;
-  for (int i = 0; i < 4; ++i) {
-    Interface moved = at;
-    JointAngles turned = angles;
-    if (i == 0) moved.body.a.x() += 1.0;
-    if (i == 1) moved.body.a.z() += 1.0;
-    if (i == 2) moved.body.Omega_dot_B.y() += 1.0;
-    if (i == 3) turned.theta.qdd += 1.0;
-    T.col(i) = acceleration(rightWingMotion(insect, moved.body, turned)) - base;
+/// d(a_W; alpha_W) of a wing / d(accelerations of the coordinates): rigid motion is linear in them.
+Matrix6xN wingAcceleration(Side side, const Insect& insect, const Interface& at,
+                           const JointAngles& angles) {
+  const Vector6d base = acceleration(wingMotion(side, insect, at.body, angles));
+  Matrix6xN T = Matrix6xN::Zero();
+  for (int i = 0; i < 6; ++i) {
+    BodyState body = at.body;
+    (i < 3 ? body.a : body.Omega_dot_B)(i % 3) += 1.0;
+    T.col(i) = acceleration(wingMotion(side, insect, body, angles)) - base;
   }
+  JointAngles turned = angles;
+  turned.wings[side].theta.qdd += 1.0;
+  T.col(side == Side::kRight ? kThetaR : kThetaL) =
+      acceleration(wingMotion(side, insect, at.body, turned)) - base;
   return T;
 }
 
@@ -42,46 +44,52 @@ InterfaceBalance::InterfaceBalance(const CoupledModel& model) : model_(model) {
 }
 
 InterfacePower InterfaceBalance::power(const PrescribedState& prescribed, const Interface& guess,
-                                       const Interface& answer, const Loads& loads) const {
+                                       const Interface& answer,
+                                       const PerWing<Loads>& loads) const {
   InterfacePower power;
   const Insect& insect = model_.insect;
-  power.fluid =
-      along(rightWingMotion(insect, guess.body, prescribed.anglesWith(guess.theta_R)), loads);
-  const JointAngles angles = prescribed.anglesWith(answer.theta_R);
-  if (!dynamics_) {
-    power.structure = along(rightWingMotion(insect, answer.body, angles), loads);
-    return power;
+  const JointAngles guessed = prescribed.anglesWith(guess.theta);
+  const JointAngles answered = prescribed.anglesWith(answer.theta);
+  for (Side side : model_.sides()) {
+    power.fluid += along(wingMotion(side, insect, guess.body, guessed), loads[side]);
+    if (!dynamics_)
+      power.structure += along(wingMotion(side, insect, answer.body, answered), loads[side]);
   }
-  const InsectMotion motion = insectMotion(insect.beta, answer.body, angles);
+  if (!dynamics_) return power;
+  const InsectMotion motion = insectMotion(insect.beta, answer.body, answered);
   Vector15d velocity;
   velocity << motion.body.v, motion.body.Omega_B, motion.joints[0].Omega, motion.joints[1].Omega,
       motion.joints[2].Omega;
-  std::array<Vector6d, 3> applied;
-  applied.fill(Vector6d::Zero());
-  applied[0] << loads.force(), loads.moment();
-  power.structure = dynamics_->appliedForce(motion, applied).dot(velocity);
+  PerWing<Loads> solved = loads;
+  if (model_.mirrored) solved.left = Loads();
+  power.structure = dynamics_->airForce(motion, solved).dot(velocity);
   return power;
 }
 
 double InterfaceBalance::addedMassRatio(const PrescribedState& prescribed,
                                         const Interface& interface,
-                                        const Matrix6d& added_mass) const {
-  const JointAngles angles = prescribed.anglesWith(interface.theta_R);
-  const Matrix6x4 T = wingAcceleration(model_.insect, interface, angles);
-  Eigen::Matrix4d air = T.transpose() * added_mass * T, structure = Eigen::Matrix4d::Zero();
+                                        const PerWing<Matrix6d>& added_mass) const {
+  const JointAngles angles = prescribed.anglesWith(interface.theta);
+  CoordinateMatrix air = CoordinateMatrix::Zero(), structure = CoordinateMatrix::Zero();
+  for (Side side : model_.sides()) {
+    const Matrix6xN T = wingAcceleration(side, model_.insect, interface, angles);
+    air += T.transpose() * added_mass[side] * T;
+  }
   if (dynamics_) {
-    air *= 2.0;
-    Matrix15x4 B = Matrix15x4::Zero();  // rows: x', Omega of body, right wing, left wing, abdomen
-    B(0, 0) = B(2, 1) = B(4, 2) = B(7, 3) = B(10, 3) = 1.0;
+    Matrix15xN B = Matrix15xN::Zero();  // rows: x', Omega of body, right wing, left wing, abdomen
+    B.topLeftCorner<6, 6>().setIdentity();
+    B(7, kThetaR) = B(10, kThetaL) = 1.0;
+    if (model_.mirrored) {
+      air *= 2.0;
+      B(10, kThetaR) = 1.0;
+    }
     structure = B.transpose() *
                 dynamics_->inertia(insectMotion(model_.insect.beta, interface.body, angles)) * B;
   } else {
-    structure(3, 3) = model_.insect.right.J(1, 1);
+    structure(kThetaR, kThetaR) = model_.insect.wings.right.plate.J(1, 1);
   }
-  const FreeCoordinates& free = model_.free;
-  const std::array<bool, 4> is_free = {free.x, free.z, free.pitch, free.wing_pitch};
-  for (int i = 0; i < 4; ++i) {
-    if (is_free[static_cast<std::size_t>(i)]) continue;
+  for (int i = 0; i < n; ++i) {
+    if (model_.free[static_cast<std::size_t>(i)]) continue;
     air.row(i).setZero();
     air.col(i).setZero();
     structure.row(i).setZero();
@@ -89,8 +97,8 @@ double InterfaceBalance::addedMassRatio(const PrescribedState& prescribed,
     structure(i, i) = 1.0;
   }
   air = 0.5 * (air + air.transpose().eval());  // a grid's added mass is symmetric to rounding only
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix4d> solver(air, structure,
-                                                                         Eigen::EigenvaluesOnly);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<CoordinateMatrix> solver(air, structure,
+                                                                          Eigen::EigenvaluesOnly);
   return solver.info() == Eigen::Success ? solver.eigenvalues().cwiseAbs().maxCoeff() : 0.0;
 }
 

@@ -5,6 +5,8 @@
 namespace monarch_flight {
 namespace {
 
+Eigen::Vector3d triple(const Coordinate& c) { return {c.q, c.qd, c.qdd}; }
+
 bool same(const Loads& a, const Loads& b) {
   return a.force_pressure == b.force_pressure && a.force_friction == b.force_friction &&
          a.moment_pressure == b.moment_pressure && a.moment_friction == b.moment_friction;
@@ -21,8 +23,8 @@ InterfaceValues interfaceValues(const Interface& interface) {
   const BodyState& body = interface.body;
   InterfaceValues values;
   values << body.x, body.v, body.a, body.R_IB.col(0), body.R_IB.col(1), body.R_IB.col(2),
-      body.Omega_B, body.Omega_dot_B, body.pitch.q, body.pitch.qd, body.pitch.qdd,
-      interface.theta_R.q, interface.theta_R.qd, interface.theta_R.qdd;
+      body.Omega_B, body.Omega_dot_B, triple(body.pitch), triple(interface.theta.right),
+      triple(interface.theta.left);
   return values;
 }
 
@@ -40,16 +42,16 @@ Interface interfaceOf(const InterfaceValues& values) {
   body.Omega_B = v(18);
   body.Omega_dot_B = v(21);
   body.pitch = coordinate(24);
-  interface.theta_R = coordinate(27);
+  interface.theta = {coordinate(27), coordinate(30)};
   return interface;
 }
 
 PrescribedValues prescribedValues(const PrescribedState& prescribed) {
-  const JointAngles& angles = prescribed.angles;
+  const auto& [right, left] = prescribed.angles.wings;
   PrescribedValues values;
-  values << interfaceValues(prescribed.interface()), angles.phi.q, angles.phi.qd, angles.phi.qdd,
-      angles.psi.q, angles.psi.qd, angles.psi.qdd, angles.theta_A.q, angles.theta_A.qd,
-      angles.theta_A.qdd, prescribed.rest_angle, prescribed.wind.v, prescribed.wind.a;
+  values << interfaceValues(prescribed.interface()), triple(right.phi), triple(right.psi),
+      triple(left.phi), triple(left.psi), triple(prescribed.angles.theta_A),
+      prescribed.rest_angle.right, prescribed.rest_angle.left, prescribed.wind.v, prescribed.wind.a;
   return values;
 }
 
@@ -57,12 +59,14 @@ PrescribedState prescribedOf(const PrescribedValues& values) {
   const auto coordinate = [&values](int first) {
     return Coordinate{values[first], values[first + 1], values[first + 2]};
   };
-  const Interface interface = interfaceOf(values.head<30>());
+  const Interface interface = interfaceOf(values.head<33>());
   PrescribedState prescribed;
   prescribed.body = interface.body;
-  prescribed.angles = {coordinate(30), coordinate(33), interface.theta_R, coordinate(36)};
-  prescribed.rest_angle = values[39];
-  prescribed.wind = {values.segment<3>(40), values.segment<3>(43)};
+  prescribed.angles.wings = {{coordinate(33), coordinate(36), interface.theta.right},
+                             {coordinate(39), coordinate(42), interface.theta.left}};
+  prescribed.angles.theta_A = coordinate(45);
+  prescribed.rest_angle = {values[48], values[49]};
+  prescribed.wind = {values.segment<3>(50), values.segment<3>(53)};
   return prescribed;
 }
 
@@ -77,7 +81,8 @@ bool same(const Coordinate& a, const Coordinate& b) {
 bool same(const Request& a, const Request& b) {
   return a.key == b.key && a.t == b.t &&
          prescribedValues(a.prescribed) == prescribedValues(b.prescribed) &&
-         same(a.interface, b.interface) && same(a.loads, b.loads) &&
+         same(a.interface, b.interface) && same(a.loads.right, b.loads.right) &&
+         same(a.loads.left, b.loads.left) &&
          a.want_operator == b.want_operator && a.want_fields == b.want_fields &&
          a.q_threshold == b.q_threshold && a.vortex_limit == b.vortex_limit &&
          a.want_flow == b.want_flow;
@@ -86,7 +91,8 @@ bool same(const Request& a, const Request& b) {
 bool finite(const Request& request) {
   return std::isfinite(request.t) && std::isfinite(request.q_threshold) &&
          prescribedValues(request.prescribed).allFinite() &&
-         interfaceValues(request.interface).allFinite() && finite(request.loads);
+         interfaceValues(request.interface).allFinite() && finite(request.loads.right) &&
+         finite(request.loads.left);
 }
 
 bool finite(const Reply& reply) {

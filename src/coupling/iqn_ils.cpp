@@ -40,14 +40,14 @@ void IqnIls::learn(const Trial& trial) {
 
 // Modified Gram-Schmidt on V, newest first; W takes the same combinations.
 CouplingVector IqnIls::correction(const CouplingVector& residual) const {
-  CouplingVector basis[4], answers[4];
-  int rank = 0;
+  std::array<CouplingVector, kCoordinates> basis, answers;
+  std::size_t rank = 0;
   CouplingVector left = residual, step = CouplingVector::Zero();
-  for (int i = 0; i < count_ && rank < 4; ++i) {
+  for (int i = 0; i < count_ && rank < kCoordinates; ++i) {
     const Difference& difference = differences_[static_cast<std::size_t>(i)];
     CouplingVector v = difference.residual, w = difference.answer;
     const double length = v.norm();
-    for (int j = 0; j < rank; ++j) {
+    for (std::size_t j = 0; j < rank; ++j) {
       const double share = basis[j].dot(v);
       v -= share * basis[j];
       w -= share * answers[j];
@@ -73,7 +73,8 @@ Proposal IqnIls::advance(const Trial& trial) {
 void IqnIls::endStep(const Trial& last) { learn(last); }
 
 void IqnIls::memory(StateVisitor& state) {
-  std::array<Eigen::Matrix<double, 9, 1>, kCapacity> rows;
+  constexpr int n = kCoordinates, kRow = 2 * n + 1;
+  std::array<Eigen::Matrix<double, kRow, 1>, kCapacity> rows;
   for (std::size_t i = 0; i < kCapacity; ++i) {
     const Difference& d = differences_[i];
     const bool used = static_cast<int>(i) < count_;
@@ -81,10 +82,10 @@ void IqnIls::memory(StateVisitor& state) {
     if (used) rows[i] << d.residual, d.answer, static_cast<double>(d.age);
   }
   state("iqn_ils_count", count_);
-  state.numbers("iqn_ils_differences", rows[0].data(), 9 * std::size_t{kCapacity});
+  state.numbers("iqn_ils_differences", rows[0].data(), kRow * std::size_t{kCapacity});
   if (!state.loading()) return;
   for (std::size_t i = 0; i < kCapacity; ++i) {
-    differences_[i] = {rows[i].head<4>(), rows[i].segment<4>(4), static_cast<int>(rows[i][8])};
+    differences_[i] = {rows[i].head<n>(), rows[i].segment<n>(n), static_cast<int>(rows[i][2 * n])};
   }
 }
 

@@ -8,8 +8,9 @@ Interface CoupledModel::departure(std::uint32_t step, Interface committed,
                                   const Interface& next) const {
   if (release == 0 || step != release) return committed;
   committed.body.a = next.body.a;
+  committed.body.Omega_dot_B = next.body.Omega_dot_B;
   committed.body.pitch.qdd = next.body.pitch.qdd;
-  committed.theta_R.qdd = next.theta_R.qdd;
+  for (Side side : kSides) committed.theta[side].qdd = next.theta[side].qdd;
   return committed;
 }
 
@@ -29,10 +30,17 @@ std::vector<std::string> CoupledModel::problems() const {
   if (!std::isfinite(gravity) || !std::isfinite(t_start)) {
     faults.push_back("gravity, time/t_start: must be finite numbers");
   }
-  if (insect.bare_wing && (free.x || free.z || free.pitch)) {
+  if (insect.bare_wing && free.body()) {
     faults.push_back(
-        "free/x, free/z, free/pitch: must be false for a bare wing, which has no body to move");
+        "free/x, y, z, roll, pitch, yaw: must be false for a bare wing, which has no body to move");
   }
+  if (mirrored && (free.lateral() || free[kThetaL])) {
+    faults.push_back(
+        "free/y, free/roll, free/yaw: must be false while one wing is the mirror image of the "
+        "other; set wings to independent");
+  }
+  if (insect.bare_wing && !mirrored)
+    faults.push_back("wings = independent: a bare wing is one wing; set wings to mirrored");
   return faults;
 }
 

@@ -12,6 +12,8 @@ const char* roleName(Role role) {
       return "wing";
     case Role::kGuidance:
       return "guidance";
+    case Role::kFluidLeft:
+      return "fluid_left";
   }
   return "unknown role";
 }

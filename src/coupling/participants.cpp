@@ -6,19 +6,19 @@
 
 namespace monarch_flight {
 
-FluidParticipant::FluidParticipant(const CoupledModel& model, std::unique_ptr<FluidModel> fluid)
-    : SolverParticipant(Role::kFluid, model), fluid_(std::move(fluid)) {}
+FluidParticipant::FluidParticipant(Side side, const CoupledModel& model,
+                                   std::unique_ptr<FluidModel> fluid)
+    : SolverParticipant(kFluids[side], model), side_(side), fluid_(std::move(fluid)) {}
 
 /// As the air sees it.
-WingMotion FluidParticipant::wingMotion(const Request& request) const {
+WingMotion FluidParticipant::motion(const Request& request) const {
   const PrescribedState& prescribed = request.prescribed;
-  return relativeTo(prescribed.wind,
-                    rightWingMotion(model().insect, request.interface.body,
-                                    prescribed.anglesWith(request.interface.theta_R)));
+  return wingMotionInAir(side_, model().insect, prescribed.wind, request.interface.body,
+                         prescribed.anglesWith(request.interface.theta));
 }
 
 void FluidParticipant::onStart(const Request& request, Reply& reply) {
-  fluid_->start(wingMotion(request), model().newmark.dt);
+  fluid_->start(motion(request), model().newmark.dt);
   reply.report = fluid_->report();
   reply.report.cells = fluid_->cells();
   reply.report.added_mass = fluid_->addedMass();
@@ -28,9 +28,9 @@ void FluidParticipant::onStart(const Request& request, Reply& reply) {
 void FluidParticipant::onIterate(const Request& request, Reply& reply) {
   if (request.want_operator) {
     reply.jacobian.emplace();
-    reply.loads = fluid_->linearise(wingMotion(request), *reply.jacobian);
+    reply.loads = fluid_->linearise(motion(request), *reply.jacobian);
   } else {
-    reply.loads = fluid_->evaluate(wingMotion(request));
+    reply.loads = fluid_->evaluate(motion(request));
   }
   reply.report = fluid_->report();
 }
@@ -62,7 +62,7 @@ FlightParticipant::FlightParticipant(const CoupledModel& model)
 void FlightParticipant::onStart(const Request&, Reply&) {}
 
 void FlightParticipant::onIterate(const Request& request, Reply& reply) {
-  const JointAngles angles = request.prescribed.anglesWith(request.interface.theta_R);
+  const JointAngles angles = request.prescribed.anglesWith(request.interface.theta);
   const Interface from = model().departure(request.key.step, committed(), request.interface);
   reply.interface.body = solver_.step(from.body, request.prescribed.body, request.interface.body,
                                       angles, request.loads);
@@ -76,24 +76,32 @@ bool FlightParticipant::sameGuess(const Interface& answered, const Interface& co
 
 WingParticipant::WingParticipant(const CoupledModel& model)
     : SolverParticipant(Role::kWing, model) {
-  if (model.free.wing_pitch) solver_.emplace(model.insect, model.gravity, model.newmark);
+  if (!model.free.wingPitch()) return;
+  for (Side side : model.sides())
+    solvers_[side].emplace(side, model.insect, model.gravity, model.newmark);
 }
 
 void WingParticipant::onStart(const Request&, Reply&) {}
 
 void WingParticipant::onIterate(const Request& request, Reply& reply) {
   const PrescribedState& prescribed = request.prescribed;
-  const JointAngles angles = prescribed.anglesWith(request.interface.theta_R);
+  const JointAngles angles = prescribed.anglesWith(request.interface.theta);
   const Interface from = model().departure(request.key.step, committed(), request.interface);
-  reply.interface.theta_R = solver_ ? solver_->step(from.theta_R, request.interface.body, angles,
-                                                    request.loads, prescribed.rest_angle)
-                                    : prescribed.angles.theta;
+  for (Side side : model().sides()) {
+    reply.interface.theta[side] =
+        solvers_[side] ? solvers_[side]->step(from.theta[side], request.interface.body, angles,
+                                              request.loads[side], prescribed.rest_angle[side])
+                       : prescribed.angles.wings[side].theta;
+  }
+  if (model().mirrored) reply.interface.theta.left = reply.interface.theta.right;
 }
 
 void WingParticipant::onCommit(const Request&, Reply&) {}
 
 bool WingParticipant::sameGuess(const Interface& answered, const Interface& committed) const {
-  return same(answered.theta_R, committed.theta_R);  // the body in ITERATE is the flight's answer
+  // The body in ITERATE is the flight's answer.
+  return same(answered.theta.right, committed.theta.right) &&
+         same(answered.theta.left, committed.theta.left);
 }
 
 GuidanceParticipant::GuidanceParticipant(const CoupledModel& model,

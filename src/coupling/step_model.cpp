@@ -3,12 +3,12 @@
 namespace monarch_flight {
 
 StepModel::StepModel(const CoupledModel& model, double length_scale)
-    : model_(model),
-      free_{model.free.x, model.free.z, model.free.pitch, model.free.wing_pitch},
-      flight_(model.insect, model.gravity, model.free, model.newmark) {
+    : model_(model), flight_(model.insect, model.gravity, model.free, model.newmark) {
   const double unit = 1.0 / (model.newmark.beta * model.newmark.dt * model.newmark.dt);
-  scales_ << length_scale * unit, length_scale * unit, unit, unit;
-  if (model.free.wing_pitch) wing_.emplace(model.insect, model.gravity, model.newmark);
+  for (std::size_t i = 0; i < kCoordinates; ++i)
+    scales_(i) = kCoordinateTable[i].translation ? length_scale * unit : unit;
+  if (!model.free.wingPitch()) return;
+  for (Side side : sides()) wings_[side].emplace(side, model.insect, model.gravity, model.newmark);
 }
 
 void StepModel::begin(const Interface& committed, const PrescribedState& prescribed,
@@ -19,11 +19,9 @@ void StepModel::begin(const Interface& committed, const PrescribedState& prescri
 }
 
 CouplingVector StepModel::increments(const Interface& interface) const {
-  const CouplingVector a(interface.body.a.x(), interface.body.a.z(), interface.body.pitch.qdd,
-                         interface.theta_R.qdd);
-  CouplingVector d = CouplingVector::Zero();
-  for (Eigen::Index i = 0; i < 4; ++i) {
-    if (free_[static_cast<std::size_t>(i)]) d(i) = a(i) / scales_(i);
+  CouplingVector d = accelerations(interface).cwiseQuotient(scales_);
+  for (std::size_t i = 0; i < kCoordinates; ++i) {
+    if (!model_.free[i]) d(i) = 0.0;
   }
   return d;
 }
@@ -31,37 +29,43 @@ CouplingVector StepModel::increments(const Interface& interface) const {
 Interface StepModel::interface(const CouplingVector& increments) const {
   const CouplingVector a = increments.cwiseProduct(scales_);
   Interface next = prescribed_.interface();
-  next.body.a.x() = a(0);
-  next.body.a.z() = a(1);
-  next.body.pitch.qdd = a(2);
-  next.theta_R.qdd = a(3);
+  next.body.a = a.head<3>();
+  next.body.Omega_dot_B = a.segment<3>(kRoll);
+  next.body.pitch.qdd = a(kPitch);
+  next.theta.right.qdd = a(kThetaR);
+  next.theta.left.qdd = a(kThetaL);
   const Interface from = model_.departure(step_, committed_, next);
-  next.body = advancedBody(from.body, prescribed_.body, model_.free, model_.newmark, a.head<3>());
-  next.theta_R = model_.free.wing_pitch ? model_.newmark.advance(from.theta_R, a(3))
-                                        : prescribed_.angles.theta;
+  next.body = advancedBody(from.body, prescribed_.body, model_.free, model_.newmark, a.head<6>());
+  for (Side side : sides()) {
+    next.theta[side] = wings_[side] ? model_.newmark.advance(from.theta[side], next.theta[side].qdd)
+                                    : prescribed_.angles.wings[side].theta;
+  }
+  if (model_.mirrored) next.theta.left = next.theta.right;
   return next;
 }
 
-CouplingVector StepModel::residual(const CouplingVector& d, const Loads& loads) const {
+CouplingVector StepModel::residual(const CouplingVector& d, const PerWing<Loads>& loads) const {
   const Interface guess = interface(d);
-  const JointAngles guessed = prescribed_.anglesWith(guess.theta_R);
+  const JointAngles guessed = prescribed_.anglesWith(guess.theta);
   const Interface from = model_.departure(step_, committed_, guess);
   Interface answer = guess;
   answer.body = flight_.step(from.body, prescribed_.body, guess.body, guessed, loads);
-  if (wing_) {
-    answer.theta_R = wing_->step(from.theta_R, answer.body, guessed, loads, prescribed_.rest_angle);
+  for (Side side : sides()) {
+    if (!wings_[side]) continue;
+    answer.theta[side] = wings_[side]->step(from.theta[side], answer.body, guessed, loads[side],
+                                            prescribed_.rest_angle[side]);
   }
   return increments(answer) - d;
 }
 
-void StepModel::airMotion(const CouplingVector& d, Vector6d& velocity,
-                          Vector6d& acceleration) const {
+AirMotion StepModel::airMotion(Side side, const CouplingVector& d) const {
   const Interface guess = interface(d);
-  const WingMotion motion =
-      relativeTo(prescribed_.wind,
-                 rightWingMotion(model_.insect, guess.body, prescribed_.anglesWith(guess.theta_R)));
-  velocity << motion.v_W, motion.omega_W;
-  acceleration << motion.a_W, motion.alpha_W;
+  const WingMotion motion = wingMotionInAir(side, model_.insect, prescribed_.wind, guess.body,
+                                            prescribed_.anglesWith(guess.theta));
+  AirMotion seen;
+  seen.velocity << motion.v_W, motion.omega_W;
+  seen.acceleration << motion.a_W, motion.alpha_W;
+  return seen;
 }
 
 }  // namespace monarch_flight

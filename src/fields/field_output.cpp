@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
+#include <tuple>
 #include <vector>
 
 #include "fields/vtk_data.h"
@@ -44,11 +45,15 @@ class FieldOutput : public StepSink {
   void onStep(const CommittedStep& step) override {
     if (resumed_) takeBackFrom(step.step);
     resumed_ = false;
-    if (!step.flow) return;
+    if (!step.flow.right) return;
     makeFolder();
     const Entry entry(step.step, step.t);
-    const std::string flow = folder_ + "/" + entry.flow, wing = folder_ + "/" + entry.wing;
-    writeWhole(flow, written<vtkXMLStructuredGridWriter>(flowGrid(case_, scales_, step), flow));
+    const std::string wing = folder_ + "/" + entry.wing;
+    for (Side side : flows()) {
+      const std::string flow = folder_ + "/" + entry.flow[side];
+      writeWhole(flow,
+                 written<vtkXMLStructuredGridWriter>(flowGrid(case_, scales_, step, side), flow));
+    }
     writeWhole(wing, written<vtkXMLPolyDataWriter>(wingSurface(case_, scales_, step), wing));
     entries_.push_back(entry);
     writeSeries();
@@ -57,7 +62,7 @@ class FieldOutput : public StepSink {
   /// The files of the run so far go.
   void onReset() override {
     for (const Entry& entry : entries_) {
-      fs::remove(folder_ + "/" + entry.flow);
+      for (Side side : flows()) fs::remove(folder_ + "/" + entry.flow[side]);
       fs::remove(folder_ + "/" + entry.wing);
     }
     if (!entries_.empty()) fs::remove(folder_ + "/fields.pvd");
@@ -87,12 +92,13 @@ class FieldOutput : public StepSink {
     Entry(std::uint32_t step_in, double t_in) : step(step_in), t(t_in) {
       char number[16];
       std::snprintf(number, sizeof number, "%08u", step);
-      flow = std::string("flow_") + number + ".vts";
+      flow = {std::string("flow_") + number + ".vts", std::string("flow_left_") + number + ".vts"};
       wing = std::string("wing_") + number + ".vtp";
     }
     std::uint32_t step;
     double t;
-    std::string flow, wing;
+    PerWing<std::string> flow;
+    std::string wing;
   };
 
   /// A run that goes on flies `step` and what is behind it anew, perhaps without files of the same
@@ -103,6 +109,7 @@ class FieldOutput : public StepSink {
       const std::string name = file.path().filename();
       unsigned number = 0;
       const bool ours = std::sscanf(name.c_str(), "flow_%8u.vts", &number) == 1 ||
+                        std::sscanf(name.c_str(), "flow_left_%8u.vts", &number) == 1 ||
                         std::sscanf(name.c_str(), "wing_%8u.vtp", &number) == 1;
       if (ours && number >= step) fs::remove(file.path());
     }
@@ -113,13 +120,17 @@ class FieldOutput : public StepSink {
     }
   }
 
+  /// Files of a step: one flow that stands for both wings, or two.
+  Sides flows() const { return case_.sides(); }
+
   void makeFolder() const {
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error) throw OutputError(folder_ + ": cannot be created (" + error.message() + ")");
   }
 
-  /// fields.pvd: ParaView's own list of files with their times; part 0 the flow, part 1 the wings.
+  /// fields.pvd: ParaView's own list of files with their times; part 0 the flow, part 1 the wings,
+  /// part 2 the left wing's flow where it is solved.
   void writeSeries() const {
     vtkNew<vtkXMLDataElement> file, collection;
     file->SetName("VTKFile");
@@ -127,15 +138,18 @@ class FieldOutput : public StepSink {
     file->SetAttribute("version", "0.1");
     collection->SetName("Collection");
     for (const Entry& entry : entries_) {
-      for (int part = 0; part < 2; ++part) {
+      const std::tuple<const char*, std::string> parts[] = {
+          {"flow", entry.flow.right}, {"wings", entry.wing}, {"flow left", entry.flow.left}};
+      for (int part = 0; part < (case_.mirrored ? 2 : 3); ++part) {
+        const auto& [name, path] = parts[part];
         vtkNew<vtkXMLDataElement> item;
         item->SetName("DataSet");
         char time[32];
         std::snprintf(time, sizeof time, "%.17g", entry.t);
         item->SetAttribute("timestep", time);
         item->SetIntAttribute("part", part);
-        item->SetAttribute("name", part == 0 ? "flow" : "wings");
-        item->SetAttribute("file", (part == 0 ? entry.flow : entry.wing).c_str());
+        item->SetAttribute("name", name);
+        item->SetAttribute("file", path.c_str());
         collection->AddNestedElement(item);
       }
     }

@@ -63,31 +63,25 @@ void addRunData(double q_threshold, const CommittedStep& step, vtkDataObject* da
   }
 }
 
-WingMotion motionOf(const Case& c, const CommittedStep& step) {
-  return rightWingMotion(c.insect, step.interface.body, step.angles);
-}
-
-/// Puts a wing's points and vectors into the world; the left one is the image in the body's plane
-/// of symmetry.
+/// Puts a wing's points and vectors into the world; the left one is told in the mirror (state.h).
 class Placement {
  public:
-  Placement(const Case& c, const CommittedStep& step, bool left)
-      : motion_(motionOf(c, step)), origin_(step.interface.body.x), mirror_(Matrix3d::Identity()) {
-    const Matrix3d& R = step.interface.body.R_IB;
-    if (left) mirror_ = R * Vector3d(1, -1, 1).asDiagonal() * R.transpose();
-  }
+  Placement(const Case& c, const CommittedStep& step, Side side)
+      : motion_(wingMotion(side, c.insect, step.interface.body, step.angles)),
+        across_(side == Side::kRight ? 1.0 : -1.0) {}
   Vector3d point(const Vector3d& r_W) const {
-    const Vector3d r_I = motion_.r_I + motion_.R_IW * r_W;
-    return worldAxes() * (origin_ + mirror_ * (r_I - origin_));
+    return out(motion_.r_I + motion_.R_IW * r_W);
   }
-  Vector3d vector(const Vector3d& v_W) const {
-    return worldAxes() * (mirror_ * (motion_.R_IW * v_W));
-  }
+  Vector3d vector(const Vector3d& v_W) const { return out(motion_.R_IW * v_W); }
+  /// Vorticity turns the other way round in a mirror.
+  Vector3d axial(const Vector3d& w_W) const { return across_ * vector(w_W); }
 
  private:
+  Vector3d out(const Vector3d& v_I) const {
+    return worldAxes() * Vector3d(v_I.x(), across_ * v_I.y(), v_I.z());
+  }
   WingMotion motion_;
-  Vector3d origin_;
-  Matrix3d mirror_;
+  double across_;
 };
 
 /// The arrays of the wing's surface, all faces of one wing after the other.
@@ -130,9 +124,9 @@ struct SurfaceArrays {
 }  // namespace
 
 vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const FieldScales& scales,
-                                            const CommittedStep& step) {
-  const FlowField& flow = *step.flow;
-  const Placement place(c, step, false);
+                                            const CommittedStep& step, Side side) {
+  const FlowField& flow = *step.flow[side];
+  const Placement place(c, step, side);
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataTypeToDouble();  // single precision is coarse beside the first cell after a metre
   const std::size_t corners = flow.x.size() * flow.y.size() * flow.z.size();
@@ -157,7 +151,7 @@ vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const FieldScales& sc
     const Vector3d v = Eigen::Map<const Eigen::Vector3f>(&flow.velocity[3 * i]).cast<double>();
     const Vector3d w = Eigen::Map<const Eigen::Vector3f>(&flow.vorticity[3 * i]).cast<double>();
     putVector(velocity, id, place.vector(v) + wind);
-    putVector(vorticity, id, place.vector(w));
+    putVector(vorticity, id, place.axial(w));
     spanwise->SetValue(id, flow.vorticity[3 * i + 1]);
     pressure->SetValue(id, flow.pressure[i]);
     q->SetValue(id, flow.q[i]);
@@ -172,16 +166,17 @@ vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const FieldScales& sc
 
 vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const FieldScales& scales,
                                          const CommittedStep& step) {
-  const std::vector<FlowField::WingFace>& wing = step.flow->wing;
-  const int wings = c.insect.wings();
+  const Sides sides{c.insect.bare_wing ? 1U : 2U};
+  std::size_t faces = 0;
+  for (Side side : sides) faces += step.flow[side]->wing.size();
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataTypeToDouble();
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  SurfaceArrays arrays(wing.size() * static_cast<std::size_t>(wings));
+  SurfaceArrays arrays(faces);
   vtkIdType id = 0;
-  for (int side = 0; side < wings; ++side) {
-    const Placement place(c, step, side == 1);
-    for (const FlowField::WingFace& f : wing) {
+  for (Side side : sides) {
+    const Placement place(c, step, side);
+    for (const FlowField::WingFace& f : step.flow[side]->wing) {
       std::array<vtkIdType, 4> corner;
       for (int q = 0; q < 4; ++q) {
         const double x = f.x + (q == 1 || q == 2 ? 0.5 : -0.5) * f.dx;
@@ -189,7 +184,7 @@ vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const FieldScales& scale
         corner[static_cast<std::size_t>(q)] =
             points->InsertNextPoint(place.point({x, y, 0}).data());
       }
-      if (side == 1) std::reverse(corner.begin(), corner.end());
+      if (side == Side::kLeft) std::reverse(corner.begin(), corner.end());
       cells->InsertNextCell(4, corner.data());
       arrays.put(id++, f, place, scales.pressure.dynamic);
     }

@@ -15,11 +15,11 @@ struct FieldScales {
   double q_threshold = 0.0;  ///< an iso-value that shows the vortices of the edges [1/s^2]
 };
 
-/// The grid of step.flow with its fields, world axes. Precondition: step.flow is not null.
+/// The grid of a wing's flow with its fields, world axes. Precondition: it is not null.
 vtkSmartPointer<vtkStructuredGrid> flowGrid(const Case& c, const FieldScales& scales,
-                                            const CommittedStep& step);
+                                            const CommittedStep& step, Side side);
 
-/// Right wing and, unless a bare wing, its mirror image: a quadrangle a face, world axes; its front
+/// Right wing and, unless a bare wing, the left one: a quadrangle a face, world axes; its front
 /// side (anticlockwise) is the ventral one.
 vtkSmartPointer<vtkPolyData> wingSurface(const Case& c, const FieldScales& scales,
                                          const CommittedStep& step);

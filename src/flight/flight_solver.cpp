@@ -6,16 +6,12 @@
 namespace monarch_flight {
 namespace {
 
-/// Rows of x'', z'' and theta_B'' = Omega_y' in the 15 velocities.
-constexpr Eigen::Index kRows[3] = {0, 2, 4};
-
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+constexpr int kBody = 6;  // coordinates of the body, the first ones of all
 
 void requireBody(const Insect& insect, const FreeCoordinates& free) {
-  if (insect.bare_wing && (free.x || free.z || free.pitch)) {
+  if (insect.bare_wing && free.body()) {
     throw InputError(
-        "free/x, free/z, free/pitch: must be false for a bare wing, which has no body to move; "
+        "free/x, y, z, roll, pitch, yaw: must be false for a bare wing, which has no body to move; "
         "set them to false or give an insect with a body");
   }
 }
@@ -37,14 +33,50 @@ void assign(BodyState& body, int axis, const Coordinate& value) {
   body.a(axis) = value.qdd;
 }
 
+/// Newmark's increment and the new value of a velocity w with w' at n and at n+1.
+Coordinate turned(const Newmark& newmark, double w, double w_dot, double w_dot_next) {
+  return newmark.advance({0.0, w, w_dot}, w_dot_next);
+}
+
+/// One step of Newton's method towards the nearest rotation: what rounding leaves stays rounding.
+Eigen::Matrix3d cleaned(const Eigen::Matrix3d& R) {
+  return R * (1.5 * Eigen::Matrix3d::Identity() - 0.5 * R.transpose() * R);
+}
+
+/// Attitude and angular velocity of level n+1 on the group.
+void turn(BodyState& next, const BodyState& n, const FreeCoordinates& free, const Newmark& newmark,
+          const Eigen::Vector3d& Omega_dot) {
+  Eigen::Vector3d increment;
+  for (int i = 0; i < 3; ++i) {
+    if (free[kRoll + static_cast<std::size_t>(i)]) {
+      const Coordinate c = turned(newmark, n.Omega_B(i), n.Omega_dot_B(i), Omega_dot(i));
+      increment(i) = c.q;
+      next.Omega_B(i) = c.qd;
+      next.Omega_dot_B(i) = c.qdd;
+    } else {  // next is as prescribed
+      increment(i) = 0.5 * newmark.dt * (n.Omega_B(i) + next.Omega_B(i));
+    }
+  }
+  next.R_IB = cleaned(n.R_IB * expSO3(increment));
+  setPitchAngle(next);
+}
+
 }  // namespace
 
 BodyState advancedBody(const BodyState& n, const BodyState& prescribed, const FreeCoordinates& free,
-                       const Newmark& newmark, const Eigen::Vector3d& accelerations) {
+                       const Newmark& newmark, const BodyVector& accelerations) {
   BodyState next = prescribed;
-  if (free.x) assign(next, 0, newmark.advance(coordinate(n, 0), accelerations(0)));
-  if (free.z) assign(next, 2, newmark.advance(coordinate(n, 2), accelerations(1)));
-  if (free.pitch) next = withPitch(next, newmark.advance(n.pitch, accelerations(2)));
+  for (int i = 0; i < 3; ++i) {
+    if (free[static_cast<std::size_t>(i)])
+      assign(next, i, newmark.advance(coordinate(n, i), accelerations(i)));
+  }
+  const bool rolls_or_yaws = free[kRoll] || free[kYaw];
+  if (!rolls_or_yaws && !free[kPitch]) return next;
+  const bool in_plane = onlyPitches(n) && (!free[kRoll] || accelerations(kRoll) == 0.0) &&
+                        (!free[kYaw] || accelerations(kYaw) == 0.0);
+  if (free[kPitch] && (in_plane || !rolls_or_yaws))
+    return withPitch(next, newmark.advance(n.pitch, accelerations(kPitch)));
+  turn(next, n, free, newmark, accelerations.tail<3>());
   return next;
 }
 
@@ -55,46 +87,43 @@ FlightSolver::FlightSolver(const Insect& insect, double gravity, const FreeCoord
       free_(free),
       newmark_(newmark) {}
 
-Eigen::Vector3d FlightSolver::accelerations(const BodyState& guess, const JointAngles& angles,
-                                            const Loads& loads) const {
-  Eigen::Vector3d result(guess.a.x(), guess.a.z(), guess.pitch.qdd);
-  const std::array<bool, 3> is_free = {free_.x, free_.z, free_.pitch};
-  std::array<int, 3> chosen{};
-  int count = 0;
-  for (int i = 0; i < 3; ++i) {
-    if (is_free[i]) chosen[count++] = i;
+BodyVector FlightSolver::accelerations(const BodyState& guess, const JointAngles& angles,
+                                       const PerWing<Loads>& loads) const {
+  BodyVector known;
+  known << guess.a, guess.Omega_dot_B;
+  if (!free_.body()) return known;
+  for (int i = 0; i < kBody; ++i) {
+    if (free_[static_cast<std::size_t>(i)]) known(i) = 0.0;
   }
-  if (count == 0) return result;
-
   InsectMotion motion = insectMotion(beta_, guess, angles);
-  if (free_.x) motion.body.a.x() = 0.0;
-  if (free_.z) motion.body.a.z() = 0.0;
-  if (free_.pitch) motion.body.Omega_dot_B.y() = 0.0;
-  const Matrix15d J = dynamics_.inertia(motion);
-  const Vector15d force = dynamics_.airForce(motion, loads) + dynamics_.gravityForce(motion) -
-                          dynamics_.inertialForce(motion);
-  SmallMatrix J_free(count, count);
-  SmallVector force_free(count);
-  for (int i = 0; i < count; ++i) {
-    force_free(i) = force(kRows[chosen[i]]);
-    for (int j = 0; j < count; ++j) J_free(i, j) = J(kRows[chosen[i]], kRows[chosen[j]]);
+  motion.body.a = known.head<3>();
+  motion.body.Omega_dot_B = known.tail<3>();
+  Eigen::Matrix<double, kBody, kBody> J = dynamics_.inertia(motion).topLeftCorner<kBody, kBody>();
+  BodyVector force =
+      (dynamics_.airForce(motion, loads) + dynamics_.gravityForce(motion) -
+       dynamics_.inertialForce(motion)).head<kBody>();
+  for (int i = 0; i < kBody; ++i) {
+    if (free_[static_cast<std::size_t>(i)]) continue;
+    J.row(i).setZero();
+    J.col(i).setZero();
+    J(i, i) = 1.0;
+    force(i) = 0.0;
   }
-  const Eigen::LLT<SmallMatrix> factor(J_free);
+  const Eigen::LLT<Eigen::Matrix<double, kBody, kBody>> factor(J);
   if (factor.info() != Eigen::Success) {
     throw NumericalError("the mass matrix of the free body coordinates is not positive definite");
   }
-  const SmallVector solution = factor.solve(force_free);
-  for (int i = 0; i < count; ++i) result(chosen[i]) = solution(i);
-  return result;
+  return known + factor.solve(force);
 }
 
 BodyState FlightSolver::step(const BodyState& n, const BodyState& prescribed,
                              const BodyState& guess, const JointAngles& angles,
-                             const Loads& loads) const {
-  if (free_.pitch && !(n.R_IB - rotationY(n.pitch.q)).isZero(1e-9)) {
+                             const PerWing<Loads>& loads) const {
+  if (free_[kPitch] && !free_[kRoll] && !free_[kYaw] &&
+      !(n.R_IB - rotationY(n.pitch.q)).isZero(1e-9)) {
     throw InputError(
         "free/pitch = true: the body's attitude must be a pure pitch (no roll, no yaw); prescribe "
-        "such a motion or set free/pitch to false");
+        "such a motion, set free/pitch to false, or free/roll and free/yaw to true");
   }
   return advancedBody(n, prescribed, free_, newmark_, accelerations(guess, angles, loads));
 }

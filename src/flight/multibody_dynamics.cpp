@@ -35,12 +35,18 @@ Eigen::Matrix<double, 6, 9> jointMap(const Appendage& part, const BodyState& bod
   return X;
 }
 
-/// Adds X_i^T load to rows 1-6 and to the appendage's own rows.
-void addGeneralised(const Eigen::Matrix<double, 6, 9>& X, std::size_t i, const Vector6d& load,
-                    Vector15d& sum) {
-  const Eigen::Matrix<double, 9, 1> generalised = X.transpose() * load;
-  sum.head<6>() += generalised.head<6>();
-  sum.segment<3>(jointRow(i)) += generalised.tail<3>();
+/// X_i^T load of each appendage in rows 1-6 and in its own rows. The wings are added to each other
+/// first: the mirror image of a flight then has the same sums to the last bit.
+Vector15d generalised(const std::array<Eigen::Matrix<double, 6, 9>, 3>& X,
+                      const std::array<Vector6d, 3>& loads) {
+  std::array<Eigen::Matrix<double, 9, 1>, 3> each;
+  Vector15d sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    each[i] = X[i].transpose() * loads[i];
+    sum.segment<3>(jointRow(i)) = each[i].tail<3>();
+  }
+  sum.head<6>() = (each[0].head<6>() + each[1].head<6>()) + each[2].head<6>();
+  return sum;
 }
 
 /// Total angular velocity of an appendage, own axes.
@@ -84,58 +90,58 @@ InsectMotion insectMotion(double beta, const BodyState& body, const JointAngles&
   motion.body = body;
   const Eigen::Vector3d mirror_axial(-1.0, 1.0,
                                      -1.0);  // of angular velocities, across the x-z plane
-  const Eigen::Vector3d Omega_R = wingRate(angles), Omega_dot_R = wingRateDerivative(angles);
-  motion.joints[0] = {wingAttitude(beta, angles), Omega_R, Omega_dot_R};
-  motion.joints[1] = {leftWingAttitude(beta, angles), mirror_axial.cwiseProduct(Omega_R),
-                      mirror_axial.cwiseProduct(Omega_dot_R)};
+  const auto& [right, left] = angles.wings;
+  motion.joints[0] = {wingAttitude(Side::kRight, beta, right), wingRate(right),
+                      wingRateDerivative(right)};
+  motion.joints[1] = {wingAttitude(Side::kLeft, beta, left),
+                      mirror_axial.cwiseProduct(wingRate(left)),
+                      mirror_axial.cwiseProduct(wingRateDerivative(left))};
   motion.joints[2] = {abdomenAttitude(angles), angles.theta_A.qd * Eigen::Vector3d::UnitY(),
                       angles.theta_A.qdd * Eigen::Vector3d::UnitY()};
   return motion;
 }
 
-Loads mirrored(const Loads& right) {
-  const Eigen::Vector3d polar(1.0, -1.0, 1.0), axial(-1.0, 1.0, -1.0);
-  Loads left;
-  left.force_pressure = polar.cwiseProduct(right.force_pressure);
-  left.force_friction = polar.cwiseProduct(right.force_friction);
-  left.moment_pressure = axial.cwiseProduct(right.moment_pressure);
-  left.moment_friction = axial.cwiseProduct(right.moment_friction);
-  return left;
-}
-
 MultibodyDynamics::MultibodyDynamics(const Insect& insect, double gravity)
-    : insect_(insect), appendages_{insect.right, insect.left, insect.abdomen}, gravity_(gravity) {
+    : insect_(insect), appendages_{insect.wings.right.plate, mirrored(insect.wings.left.plate), insect.abdomen}, gravity_(gravity) {
   if (insect.bare_wing) {
     throw std::invalid_argument("multibody dynamics need an insect with a body, not a bare wing");
   }
+}
+
+std::array<Eigen::Matrix<double, 6, 9>, 3> MultibodyDynamics::jointMaps(
+    const InsectMotion& motion) const {
+  std::array<Eigen::Matrix<double, 6, 9>, 3> X;
+  for (std::size_t i = 0; i < 3; ++i) X[i] = jointMap(appendages_[i], motion.body, motion.joints[i]);
+  return X;
 }
 
 Matrix15d MultibodyDynamics::inertia(const InsectMotion& motion) const {
   Matrix15d J = Matrix15d::Zero();
   J.block<3, 3>(0, 0) = insect_.m_B * Eigen::Matrix3d::Identity();
   J.block<3, 3>(3, 3) = insect_.J_B;
+  const auto X = jointMaps(motion);
+  std::array<Matrix9d, 3> parts;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto X = jointMap(appendages_[i], motion.body, motion.joints[i]);
-    const Matrix9d part = X.transpose() * spatialInertia(appendages_[i]) * X;
+    parts[i] = X[i].transpose() * spatialInertia(appendages_[i]) * X[i];
     const Eigen::Index row = jointRow(i);
-    J.block<6, 6>(0, 0) += part.topLeftCorner<6, 6>();
-    J.block<6, 3>(0, row) += part.topRightCorner<6, 3>();
-    J.block<3, 6>(row, 0) += part.bottomLeftCorner<3, 6>();
-    J.block<3, 3>(row, row) += part.bottomRightCorner<3, 3>();
+    J.block<6, 3>(0, row) = parts[i].topRightCorner<6, 3>();
+    J.block<3, 6>(row, 0) = parts[i].bottomLeftCorner<3, 6>();
+    J.block<3, 3>(row, row) = parts[i].bottomRightCorner<3, 3>();
   }
+  const auto body = [&parts](std::size_t i) { return parts[i].topLeftCorner<6, 6>(); };
+  J.block<6, 6>(0, 0) += (body(0) + body(1)) + body(2);
   return J;
 }
 
 Vector15d MultibodyDynamics::inertialForce(const InsectMotion& motion) const {
   const BodyState& body = motion.body;
-  Vector15d sum = Vector15d::Zero();
-  sum.head<3>() = insect_.m_B * body.a;
-  sum.segment<3>(3) =
+  std::array<Vector6d, 3> loads;
+  for (std::size_t i = 0; i < 3; ++i)
+    loads[i] = inertialLoad(appendages_[i], body, motion.joints[i]);
+  Vector15d sum = appliedForce(motion, loads);
+  sum.head<3>() += insect_.m_B * body.a;
+  sum.segment<3>(3) +=
       insect_.J_B * body.Omega_dot_B + body.Omega_B.cross(insect_.J_B * body.Omega_B);
-  for (std::size_t i = 0; i < 3; ++i) {
-    addGeneralised(jointMap(appendages_[i], body, motion.joints[i]), i,
-                   inertialLoad(appendages_[i], body, motion.joints[i]), sum);
-  }
   return sum;
 }
 
@@ -155,27 +161,24 @@ Vector15d MultibodyDynamics::gravityForce(const InsectMotion& motion) const {
   return sum;
 }
 
-Vector15d MultibodyDynamics::airForce(const InsectMotion& motion, const Loads& right) const {
-  const Loads left = mirrored(right);
-  std::array<Vector6d, 3> loads;
-  loads[0] << right.force(), right.moment();
-  loads[1] << left.force(), left.moment();
-  loads[2].setZero();
-  return appliedForce(motion, loads);
+Vector15d MultibodyDynamics::airForce(const InsectMotion& motion,
+                                      const PerWing<Loads>& loads) const {
+  const Loads left = mirrored(loads.left);
+  std::array<Vector6d, 3> applied;
+  applied[0] << loads.right.force(), loads.right.moment();
+  applied[1] << left.force(), left.moment();
+  applied[2].setZero();
+  return appliedForce(motion, applied);
 }
 
 Vector15d MultibodyDynamics::appliedForce(const InsectMotion& motion,
                                           const std::array<Vector6d, 3>& loads) const {
-  Vector15d sum = Vector15d::Zero();
-  for (std::size_t i = 0; i < 3; ++i) {
-    addGeneralised(jointMap(appendages_[i], motion.body, motion.joints[i]), i, loads[i], sum);
-  }
-  return sum;
+  return generalised(jointMaps(motion), loads);
 }
 
 std::array<Eigen::Vector3d, 3> MultibodyDynamics::jointTorques(const InsectMotion& motion,
-                                                               const Loads& right) const {
-  const Vector15d torque = inertialForce(motion) - gravityForce(motion) - airForce(motion, right);
+                                                               const PerWing<Loads>& loads) const {
+  const Vector15d torque = inertialForce(motion) - gravityForce(motion) - airForce(motion, loads);
   return {torque.segment<3>(6), torque.segment<3>(9), torque.segment<3>(12)};
 }
 

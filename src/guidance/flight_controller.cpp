@@ -131,7 +131,7 @@ void FlightController::feedBack(const WingbeatLevel& level, const Air& now, int 
   deviation_.head<2>() = now.velocity;
   deviation_(2) = at.body.pitch.q;
   deviation_(3) = at.body.pitch.qd;
-  if (settings_.wing_pitch) deviation_.tail<2>() << at.theta_R.q, at.theta_R.qd;
+  if (settings_.wing_pitch) deviation_.tail<2>() << at.theta.right.q, at.theta.right.qd;
   deviation_ -= now_.state;
   lost_ = !deviation_.allFinite() || !(std::abs(deviation_(2)) <= settings_.lost_pitch) ||
           limited_flaps_ > settings_.lost_flaps;

@@ -29,11 +29,12 @@ class Row {
 const std::vector<std::string>& ReplayGuidance::columns() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names = {
-        "t",       "phi",         "phi_dot",      "phi_ddot",    "psi",
-        "psi_dot", "psi_ddot",    "theta_R",      "theta_R_dot", "theta_R_ddot",
-        "theta_A", "theta_A_dot", "theta_A_ddot", "rest_angle",  "wx",
-        "wy",      "wz",          "wax",          "way",         "waz",
-        "phase",   "clipped",     "refused",      "lost"};
+        "t",        "phi",      "phi_dot",   "phi_ddot",    "psi",          "psi_dot",
+        "psi_ddot", "theta_R",  "theta_R_dot", "theta_R_ddot", "rest_angle",  "phi_L",
+        "phi_L_dot", "phi_L_ddot", "psi_L",  "psi_L_dot",   "psi_L_ddot",   "theta_L",
+        "theta_L_dot", "theta_L_ddot", "rest_angle_L", "theta_A", "theta_A_dot", "theta_A_ddot",
+        "wx",       "wy",       "wz",        "wax",         "way",          "waz",
+        "phase",    "clipped",  "refused",   "lost"};
     for (const char* kind : {"command_", "applied_"}) {
       for (const CommandInfo& info : kCommandTable) names.push_back(std::string(kind) + info.name);
     }
@@ -50,11 +51,14 @@ PrescribedState ReplayGuidance::at(std::uint32_t step, double t) {
   Row row(table_->rows[step]);
   row.number();  // t
   PrescribedState state = motion_->at(t);
-  state.angles.phi = row.coordinate();
-  state.angles.psi = row.coordinate();
-  state.angles.theta = row.coordinate();
+  for (Side side : kSides) {
+    WingAngles& wing = state.angles.wings[side];
+    wing.phi = row.coordinate();
+    wing.psi = row.coordinate();
+    wing.theta = row.coordinate();
+    state.rest_angle[side] = row.number();
+  }
   state.angles.theta_A = row.coordinate();
-  state.rest_angle = row.number();
   state.wind.v = row.vector();
   state.wind.a = row.vector();
   report_.phase = row.number();

@@ -74,12 +74,11 @@ WingbeatGuidance::WingbeatGuidance(std::shared_ptr<const PrescribedMotion> motio
     : motion_(std::move(motion)),
       wind_(std::move(wind)),
       settings_(checked(settings)),
-      phi_mean_(0.0),
       abdomen_mean_(0.0),
       source_(std::move(source)) {
   for (int i = 0; i < kSamples; ++i) {
     const JointAngles angles = motion_->at(t_start + i / (kSamples * settings_.frequency)).angles;
-    phi_mean_ += angles.phi.q / kSamples;
+    for (Side side : kSides) phi_mean_[side] += angles.wings[side].phi.q / kSamples;
     abdomen_mean_ += angles.theta_A.q / kSamples;
   }
   for (const CommandLimits& limits : settings_.limits)
@@ -140,16 +139,32 @@ PrescribedState WingbeatGuidance::at(double t) {
   const Coordinate& f = applied_[kFrequencyCommand];
   if (tau != t || f.q != 0.0 || f.qd != 0.0) {
     const JointAngles joints = motion_->at(tau).angles;
-    state.angles = {retimed(joints.phi, f), retimed(joints.psi, f), retimed(joints.theta, f),
-                    retimed(joints.theta_A, f)};
+    for (Side side : kSides) {
+      const auto& [phi, psi, theta] = joints.wings[side];
+      state.angles.wings[side] = {retimed(phi, f), retimed(psi, f), retimed(theta, f)};
+    }
+    state.angles.theta_A = retimed(joints.theta_A, f);
+  }
+  for (Side side : kSides) {
+    WingAngles& wing = state.angles.wings[side];
+    wing.phi = swung(wing.phi, phi_mean_[side], command(kAmplitudeCommand, side),
+                     command(kFlappingMeanCommand, side));
+    wing.psi = shifted(wing.psi, command(kDeviationMeanCommand, side));
+    state.rest_angle[side] = command(kRestAngleCommand, side).q;
   }
   JointAngles& a = state.angles;
-  a.phi = swung(a.phi, phi_mean_, applied_[kAmplitudeCommand], applied_[kFlappingMeanCommand]);
-  a.psi = shifted(a.psi, applied_[kDeviationMeanCommand]);
   a.theta_A = swung(a.theta_A, abdomen_mean_, applied_[kAbdomenAmplitudeCommand],
                     applied_[kAbdomenMeanCommand]);
-  state.rest_angle = applied_[kRestAngleCommand].q;
   return state;
+}
+
+/// What the wing gets of a command: both sides alike, and the difference.
+Coordinate WingbeatGuidance::command(Command both, Side side) const {
+  const auto difference = differenceOf(both);
+  if (!difference) return applied_[both];
+  const Coordinate &sum = applied_[both], &half = applied_[*difference];
+  const double sign = side == Side::kRight ? 1.0 : -1.0;
+  return {sum.q + sign * half.q, sum.qd + sign * half.qd, sum.qdd + sign * half.qdd};
 }
 
 void WingbeatGuidance::memory(StateVisitor& state) {

@@ -38,10 +38,8 @@ PrescribedState FourierMotion::at(double t) const {
   addSway(state.body, 0, settings_.sway_x.at(f, t));
   addSway(state.body, 2, settings_.sway_z.at(f, t));
   state.body = withPitch(state.body, settings_.pitch.at(f, t));
-  state.angles.phi = settings_.phi.at(f, t);
-  state.angles.psi = settings_.psi.at(f, t);
-  state.angles.theta = settings_.theta.at(f, t);
-  state.angles.theta_A = settings_.theta_A.at(f, t);
+  const WingAngles wing{settings_.phi.at(f, t), settings_.psi.at(f, t), settings_.theta.at(f, t)};
+  state.angles = {{wing, wing}, settings_.theta_A.at(f, t)};
   return state;
 }
 

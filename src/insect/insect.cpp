@@ -10,7 +10,7 @@ namespace {
 
 class FaultList {
  public:
-  void require(bool good, const char* key, double value, const char* unit, const char* bound,
+  void require(bool good, const std::string& key, double value, const char* unit, const char* bound,
                const char* remedy) {
     if (good) return;
     std::ostringstream text;
@@ -18,10 +18,10 @@ class FaultList {
          << remedy;
     faults.push_back(text.str());
   }
-  void positive(const char* key, double value, const char* unit, const char* remedy) {
+  void positive(const std::string& key, double value, const char* unit, const char* remedy) {
     require(std::isfinite(value) && value > 0.0, key, value, unit, "> 0", remedy);
   }
-  void finite(const char* key, double value, const char* unit) {
+  void finite(const std::string& key, double value, const char* unit) {
     require(std::isfinite(value), key, value, unit, "a finite number", "correct it");
   }
   std::vector<std::string> faults;
@@ -34,31 +34,50 @@ void checkButterfly(const Insect& insect, FaultList& list) {
   list.positive("abdomen/mass", insect.abdomen.m, "kg", "a monarch's is about 1.5e-4");
   list.positive("abdomen/length", insect.abdomen_length, "m", "a monarch's is about 0.017");
   list.positive("abdomen/width", insect.abdomen_width, "m", "a monarch's is about 0.004");
-  list.positive("wing/mass", insect.right.m, "kg", "a monarch's is about 3e-5");
-  for (int i = 0; i < 3; ++i) {
-    list.finite("abdomen/joint", insect.abdomen.mu[i], "m");
-    list.finite("wing/root", insect.right.mu[i], "m");
+  for (int i = 0; i < 3; ++i) list.finite("abdomen/joint", insect.abdomen.mu[i], "m");
+}
+
+/// `section`: where the case has the wing.
+void checkWing(const std::string& section, const Wing& wing, bool bare, FaultList& list) {
+  const auto key = [&section](const char* name) { return section + "/" + name; };
+  const Appendage& plate = wing.plate;
+  if (bare) {
+    list.require(std::isfinite(plate.m) && plate.m >= 0.0, key("mass"), plate.m, "kg", ">= 0",
+                 "give the wing's mass, or 0 for a wing that only follows a motion");
+    list.require(plate.mu.isZero(0.0), key("root"), plate.mu.norm(), "m", "0",
+                 "a bare wing has its root at the origin; move it by motion/body/position");
+  } else {
+    list.positive(key("mass"), plate.m, "kg", "a monarch's is about 3e-5");
+    for (int i = 0; i < 3; ++i) list.finite(key("root"), plate.mu[i], "m");
   }
+  list.require(std::isfinite(wing.kappa) && wing.kappa >= 0.0, key("kappa"), wing.kappa, "N m/rad",
+               ">= 0", "the published value is 1.5e-4; 0 is a free hinge");
+  list.require(std::abs(wing.theta_0) <= M_PI, key("theta_0"), wing.theta_0, "rad", "within +-pi",
+               "angles without the suffix _deg are in radians");
 }
 
 }  // namespace
 
+double Insect::totalMass() const {
+  return m_B + wings.right.plate.m + wings.left.plate.m + abdomen.m;
+}
+
+double Insect::meanChord() const {
+  return 0.5 * (wings.right.planform.meanChord() + wings.left.planform.meanChord());
+}
+
 std::vector<std::string> Insect::problems() const {
   FaultList list;
-  if (bare_wing) {
-    list.require(std::isfinite(right.m) && right.m >= 0.0, "wing/mass", right.m, "kg", ">= 0",
-                 "give the wing's mass, or 0 for a wing that only follows a motion");
-    list.require(right.mu.isZero(0.0), "wing/root", right.mu.norm(), "m", "0",
-                 "a bare wing has its root at the origin; move it by motion/body/position");
-  } else {
-    checkButterfly(*this, list);
-  }
-  list.require(std::isfinite(kappa) && kappa >= 0.0, "wing/kappa", kappa, "N m/rad", ">= 0",
-               "the published value is 1.5e-4; 0 is a free hinge");
-  list.require(std::abs(theta_0) <= M_PI, "wing/theta_0", theta_0, "rad", "within +-pi",
-               "angles without the suffix _deg are in radians");
+  if (!bare_wing) checkButterfly(*this, list);
+  checkWing("wing", wings.right, bare_wing, list);
   list.require(std::abs(beta) <= M_PI, "beta", beta, "rad", "within +-pi",
                "angles without the suffix _deg are in radians");
+  return list.faults;
+}
+
+std::vector<std::string> wingProblems(const std::string& section, const Wing& wing) {
+  FaultList list;
+  checkWing(section, wing, false, list);
   return list.faults;
 }
 
@@ -93,13 +112,13 @@ Eigen::Matrix3d Cylinder::inertia() const {
   return Eigen::Vector3d(along, across, across).asDiagonal();
 }
 
+Wing makeWing(const WingParameters& wing, const Planform& planform) {
+  return {plateWing(planform, wing.mass, wing.root), planform, wing.kappa, wing.theta_0};
+}
+
 Insect makeBareWing(const std::string& name, const WingParameters& wing, const Planform& planform) {
-  Insect insect{name,       true,         0.0,     Eigen::Matrix3d::Zero(),
-                0.0,        0.0,          0.0,     0.0,
-                {},         {},           {},      wing.beta,
-                wing.kappa, wing.theta_0, planform};
-  insect.right = plateWing(planform, wing.mass, wing.root);
-  return insect;
+  const Wing one = makeWing(wing, planform);
+  return {name, true, 0.0, Eigen::Matrix3d::Zero(), 0.0, 0.0, 0.0, 0.0, {}, wing.beta, {one, one}};
 }
 
 Insect makeButterfly(const std::string& name, const Cylinder& body, const Cylinder& abdomen,
@@ -107,7 +126,6 @@ Insect makeButterfly(const std::string& name, const Cylinder& body, const Cylind
                      const Planform& planform) {
   Insect insect = makeBareWing(name, wing, planform);
   insect.bare_wing = false;
-  insect.left = mirrored(insect.right);
   insect.m_B = body.mass;
   insect.J_B = body.inertia();
   insect.body_length = body.length;

@@ -141,6 +141,20 @@ Planform Planform::scaledTo(double span_wanted, double area_wanted) const {
   return Planform(scaled(leading_), scaled(trailing_), y_root, y_root + span_wanted, breaks);
 }
 
+Planform Planform::withoutTip(double share) const {
+  if (!(share >= 0.0 && share <= 0.9)) reject("share of the area that is cut off: must be in [0, 0.9]");
+  if (share == 0.0) return *this;
+  const auto cutAt = [this](double y) {
+    return Planform(leading_, trailing_, y_root_, y, breaks_);
+  };
+  double inner = y_root_ + 1e-3 * span(), outer = y_tip_;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (inner + outer);
+    (cutAt(middle).area() < (1.0 - share) * area_ ? inner : outer) = middle;
+  }
+  return cutAt(outer);
+}
+
 double Planform::chord(double y) const {
   if (y < y_root_ || y > y_tip_) return 0.0;
   return std::max(0.0, leading_(y) - trailing_(y));

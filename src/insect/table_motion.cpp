@@ -25,19 +25,7 @@ void setAttitude(BodyState& body, const Eigen::Vector4d& p, const Eigen::Vector4
   body.R_IB = Eigen::Quaterniond(p[0], p[1], p[2], p[3]).normalized().toRotationMatrix();
   body.Omega_B = 2.0 / n2 * vectorPart(pd);
   body.Omega_dot_B = 2.0 / n2 * vectorPart(pdd) - 2.0 * p.dot(pd) / n2 * body.Omega_B;
-  // pitch = asin(-R(2,0)); R' = R W, R'' = R (W W + W') with W = hat(Omega).
-  const Eigen::RowVector3d row = body.R_IB.row(2);
-  const Eigen::Vector3d& w = body.Omega_B;
-  const Eigen::Vector3d e1 = Eigen::Vector3d::UnitX();
-  const double s = -row * e1;
-  const double sd = -row.dot(w.cross(e1));
-  const double sdd = -row.dot(w.cross(w.cross(e1)) + body.Omega_dot_B.cross(e1));
-  const double c = std::sqrt(std::max(0.0, 1.0 - s * s));
-  body.pitch.q = std::asin(std::min(1.0, std::max(-1.0, s)));
-  if (c > 1e-9) {  // at +-90 degrees the pitch angle has no derivative
-    body.pitch.qd = sd / c;
-    body.pitch.qdd = sdd / c + s * sd * sd / (c * c * c);
-  }
+  setPitchAngle(body);
 }
 
 }  // namespace
@@ -91,10 +79,8 @@ PrescribedState TableMotion::at(double t) const {
     return state;
   }
   state.body = withPitch(state.body, coordinate(v, 3));
-  state.angles.phi = coordinate(v, 4);
-  state.angles.psi = coordinate(v, 5);
-  state.angles.theta = coordinate(v, 6);
-  state.angles.theta_A = coordinate(v, 7);
+  const WingAngles wing{coordinate(v, 4), coordinate(v, 5), coordinate(v, 6)};
+  state.angles = {{wing, wing}, coordinate(v, 7)};
   return state;
 }
 

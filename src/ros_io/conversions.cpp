@@ -89,7 +89,8 @@ InterfaceState toMessage(const Interface& interface) {
   out.angular_velocity = array(body.Omega_B);
   out.angular_acceleration = array(body.Omega_dot_B);
   out.theta_b = array(body.pitch);
-  out.theta_r = array(interface.theta_R);
+  out.theta_r = array(interface.theta.right);
+  out.theta_l = array(interface.theta.left);
   return out;
 }
 
@@ -102,7 +103,7 @@ Interface fromMessage(const InterfaceState& interface) {
   out.body.Omega_B = vector(interface.angular_velocity);
   out.body.Omega_dot_B = vector(interface.angular_acceleration);
   out.body.pitch = coordinate(interface.theta_b);
-  out.theta_R = coordinate(interface.theta_r);
+  out.theta = {coordinate(interface.theta_r), coordinate(interface.theta_l)};
   return out;
 }
 
@@ -127,10 +128,14 @@ Loads fromMessage(const WingLoads& loads) {
 PrescribedLevel toMessage(const PrescribedState& prescribed) {
   PrescribedLevel out;
   out.interface = toMessage(prescribed.interface());
-  out.phi = joint(prescribed.angles.phi);
-  out.psi = joint(prescribed.angles.psi);
+  const auto& [right, left] = prescribed.angles.wings;
+  out.phi = joint(right.phi);
+  out.psi = joint(right.psi);
+  out.phi_l = joint(left.phi);
+  out.psi_l = joint(left.psi);
   out.theta_a = joint(prescribed.angles.theta_A);
-  out.rest_angle = prescribed.rest_angle;
+  out.rest_angle = prescribed.rest_angle.right;
+  out.rest_angle_l = prescribed.rest_angle.left;
   out.wind = vector3(prescribed.wind.v);
   out.wind_change = vector3(prescribed.wind.a);
   return out;
@@ -140,15 +145,21 @@ PrescribedState fromMessage(const PrescribedLevel& prescribed) {
   const Interface interface = fromMessage(prescribed.interface);
   PrescribedState out;
   out.body = interface.body;
-  out.angles = {coordinate(prescribed.phi), coordinate(prescribed.psi), interface.theta_R,
-                coordinate(prescribed.theta_a)};
-  out.rest_angle = prescribed.rest_angle;
+  out.angles.wings = {
+      {coordinate(prescribed.phi), coordinate(prescribed.psi), interface.theta.right},
+      {coordinate(prescribed.phi_l), coordinate(prescribed.psi_l), interface.theta.left}};
+  out.angles.theta_A = coordinate(prescribed.theta_a);
+  out.rest_angle = {prescribed.rest_angle, prescribed.rest_angle_l};
   out.wind = {vector(prescribed.wind), vector(prescribed.wind_change)};
   return out;
 }
 
 WingbeatCommand toMessage(const WingbeatChange& change) {
   WingbeatCommand out;
+  out.amplitude_difference = change.amplitude_difference;
+  out.flapping_difference = change.flapping_difference;
+  out.deviation_difference = change.deviation_difference;
+  out.rest_angle_difference = change.rest_angle_difference;
   out.amplitude = change.amplitude;
   out.flapping_mean = change.flapping_mean;
   out.frequency = change.frequency;
@@ -160,9 +171,10 @@ WingbeatCommand toMessage(const WingbeatChange& change) {
 }
 
 WingbeatChange fromMessage(const WingbeatCommand& command) {
-  return {command.amplitude,        command.flapping_mean, command.frequency,
-          command.deviation_mean,   command.rest_angle,    command.abdomen_mean,
-          command.abdomen_amplitude};
+  return {command.amplitude,           command.flapping_mean,       command.frequency,
+          command.deviation_mean,      command.rest_angle,          command.abdomen_mean,
+          command.abdomen_amplitude,   command.amplitude_difference, command.flapping_difference,
+          command.deviation_difference, command.rest_angle_difference};
 }
 
 GuidanceState toMessage(const GuidanceReport& report) {
@@ -183,7 +195,8 @@ ParticipantRequest toMessage(const Request& request) {
   out.t = request.t;
   out.prescribed = toMessage(request.prescribed);
   out.interface = toMessage(request.interface);
-  out.loads = toMessage(request.loads);
+  out.loads = toMessage(request.loads.right);
+  out.loads_l = toMessage(request.loads.left);
   out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
   out.q_threshold = request.q_threshold;
@@ -198,7 +211,7 @@ Request fromMessage(const ParticipantRequest& request) {
   out.t = request.t;
   out.prescribed = fromMessage(request.prescribed);
   out.interface = fromMessage(request.interface);
-  out.loads = fromMessage(request.loads);
+  out.loads = {fromMessage(request.loads), fromMessage(request.loads_l)};
   out.want_operator = request.want_operator;
   out.want_fields = request.want_fields;
   out.q_threshold = request.q_threshold;
@@ -366,7 +379,7 @@ bool finite(const Interface& interface) {
   const BodyState& body = interface.body;
   return body.x.allFinite() && body.v.allFinite() && body.a.allFinite() && body.R_IB.allFinite() &&
          body.Omega_B.allFinite() && body.Omega_dot_B.allFinite() && finite(body.pitch) &&
-         finite(interface.theta_R);
+         finite(interface.theta.right) && finite(interface.theta.left);
 }
 
 std::string describe(const ExchangeKey& key) {

@@ -18,9 +18,11 @@ const ros::WallDuration kHeldWait(0.01);  // of a held run, for messages; then i
 constexpr std::uint32_t kCommandQueue = 100;
 
 /// The nodes that a run needs.
-std::vector<Role> rolesOf(const Case& c) {
-  std::vector<Role> roles = {Role::kFluid, Role::kFlight, Role::kWing};
-  if (c.guidance.kind == GuidanceKind::kNode) roles.push_back(Role::kGuidance);
+std::vector<Role> nodesOf(const Case& c) {
+  std::vector<Role> roles;
+  for (Role role : rolesOf(c)) {
+    if (role != Role::kGuidance || c.guidance.kind == GuidanceKind::kNode) roles.push_back(role);
+  }
   return roles;
 }
 
@@ -44,7 +46,7 @@ CoordinatorNode::CoordinatorNode(const StopFlag& stop)
   if (Token::fromEnvironment().empty()) {
     ROS_WARN("%s is not set: every node of this master can take part in the run", Token::kVariable);
   }
-  for (Role role : rolesOf(case_)) {
+  for (Role role : nodesOf(case_)) {
     const LockstepIdentity identity{role, case_.name, case_.sha256, Token::fromEnvironment()};
     nodes_.push_back(std::make_unique<RosParticipant>(node_, identity, run_));
   }
@@ -72,8 +74,10 @@ int CoordinatorNode::fly() {
       node_, case_, parameters_.paused, [this] { keepAlive(); }, stop_);
   run.addSink(control);
   const auto guidance = makeGuidance(checkpointFolder(out));
-  return run.fly(run_.id, {nodes_[0].get(), nodes_[1].get(), nodes_[2].get(), guidance.get()},
-                 control, stop_);
+  Participants all{};
+  for (const auto& node : nodes_) all[static_cast<std::size_t>(node->role())] = node.get();
+  all[static_cast<std::size_t>(Role::kGuidance)] = guidance.get();
+  return run.fly(run_.id, all, control, stop_);
 }
 
 /// In this process, led by the topic `command` or by a node where the case says so.
@@ -84,7 +88,10 @@ std::unique_ptr<Participant> CoordinatorNode::makeGuidance(const std::string& ch
   auto own = makeParticipant(Role::kGuidance, case_, checkpoints, inbox_);
   if (kind == GuidanceKind::kNode) {
     own_ = std::move(own);
-    return std::make_unique<GuidanceByNode>(*nodes_.back(), *own_, inbox_);
+    for (const auto& node : nodes_) {
+      if (node->role() == Role::kGuidance)
+        return std::make_unique<GuidanceByNode>(*node, *own_, inbox_);
+    }
   }
   auto options = ros::SubscribeOptions::create<WingbeatCommand>(
       "command", kCommandQueue, [this](const WingbeatCommandConstPtr& m) { onCommand(m); },

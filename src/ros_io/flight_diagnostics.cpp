@@ -78,10 +78,12 @@ diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep
                      entry("work of the air, structure's side [J]", step.work_structure)};
   if (!step.iterations.empty()) {
     const IterationRecord& last = step.iterations.back();
-    coupling.values.push_back(entry("residual x/c", last.residual[0]));
-    coupling.values.push_back(entry("residual z/c", last.residual[1]));
-    coupling.values.push_back(entry("residual theta_B [rad]", last.residual[2]));
-    coupling.values.push_back(entry("residual theta_R [rad]", last.residual[3]));
+    for (std::size_t i = 0; i < kCoordinates; ++i) {
+      if (!case_.free[i]) continue;
+      const std::string unit = kCoordinateTable[i].translation ? "/c" : " [rad]";
+      coupling.values.push_back(
+          entry("residual " + std::string(kCoordinateTable[i].name) + unit, last.residual[i]));
+    }
     coupling.values.push_back(entry("load residual", last.load_residual));
     coupling.values.push_back(entry("relaxation", last.relaxation));
   }

@@ -50,13 +50,13 @@ sensor_msgs::JointState jointState(const JointAngles& a, bool bare_wing, const r
     out.position.push_back(c.q);
     out.velocity.push_back(c.qd);
   };
-  add(joints::kRightFlap, a.phi);
-  add(joints::kRightDeviation, a.psi);
-  add(joints::kRightPitch, a.theta);
+  add(joints::kRightFlap, a.wings.right.phi);
+  add(joints::kRightDeviation, a.wings.right.psi);
+  add(joints::kRightPitch, a.wings.right.theta);
   if (bare_wing) return out;
-  add(joints::kLeftFlap, a.phi);
-  add(joints::kLeftDeviation, a.psi);
-  add(joints::kLeftPitch, a.theta);
+  add(joints::kLeftFlap, a.wings.left.phi);
+  add(joints::kLeftDeviation, a.wings.left.psi);
+  add(joints::kLeftPitch, a.wings.left.theta);
   add(joints::kAbdomen, a.theta_A);
   return out;
 }
@@ -69,9 +69,9 @@ geometry_msgs::Vector3Stamped wind(const Wind& met, const ros::Time& stamp) {
   return out;
 }
 
-// `right`: loads on the right wing.
-geometry_msgs::WrenchStamped wrench(const Loads& right, bool left, const ros::Time& stamp) {
-  const Loads loads = left ? mirrored(right) : right;
+// In the wing's true axes.
+geometry_msgs::WrenchStamped wrench(const PerWing<Loads>& all, bool left, const ros::Time& stamp) {
+  const Loads loads = left ? mirrored(all.left) : all.right;
   geometry_msgs::WrenchStamped out;
   out.header.stamp = stamp;
   out.header.frame_id = left ? frames::kLeftWing : frames::kRightWing;
@@ -105,13 +105,18 @@ FlightState flightState(const CommittedStep& step, const ros::Time& stamp) {
   out.step = step.step;
   out.t = step.t;
   out.interface = toMessage(step.interface);
-  out.phi = triple(step.angles.phi);
-  out.psi = triple(step.angles.psi);
+  const auto& [right, left] = step.angles.wings;
+  out.phi = triple(right.phi);
+  out.psi = triple(right.psi);
+  out.phi_l = triple(left.phi);
+  out.psi_l = triple(left.psi);
   out.theta_a = triple(step.angles.theta_A);
-  out.rest_angle = step.guided.rest_angle;
+  out.rest_angle = step.guided.rest_angle.right;
+  out.rest_angle_l = step.guided.rest_angle.left;
   out.wind = toVector3(step.guided.wind.v);
   out.guidance = toMessage(step.guidance);
-  out.loads = toMessage(step.loads);
+  out.loads = toMessage(step.loads.right);
+  out.loads_l = toMessage(step.loads.left);
   for (int i = 0; i < 3; ++i) out.force[i] = step.force_I[i];
   out.sub_iterations = static_cast<std::uint32_t>(step.iterations.size());
   out.retried = step.retried();
@@ -226,11 +231,11 @@ bool FlightMessages::growPath(const CommittedStep& step, const ros::Time& stamp)
 void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& stamp,
                                  std::vector<StampedMessage>& out) const {
   const Insect& insect = case_.insect;
-  if (!step.surface.facets.empty()) {
+  if (!step.surface.right.facets.empty()) {
     visualization_msgs::MarkerArray picture = pressureMarkers(
-        step.surface, pressure_, insect.bare_wing, kLift * insect.planform.meanChord(), stamp);
+        step.surface, pressure_, insect.bare_wing, kLift * insect.meanChord(), stamp);
     const visualization_msgs::MarkerArray legend = pressureLegend(
-        pressure_, insect.planform.span(), baseLinkAttitude(step.interface.body), stamp);
+        pressure_, insect.wings.right.planform.span(), baseLinkAttitude(step.interface.body), stamp);
     picture.markers.insert(picture.markers.end(), legend.markers.begin(), legend.markers.end());
     out.push_back({topics::kPressure, stamp, std::move(picture), true});
   }

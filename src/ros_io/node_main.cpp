@@ -90,8 +90,12 @@ int coordinatorMain(int argc, char** argv) {
 
 int fluidMain(int argc, char** argv) {
   const Processes processes(&argc, &argv);
-  if (processes.rank() == 0) return participantMain(Role::kFluid, argc, argv);
-  return serveFlow(processes);
+  if (processes.rank() > 0) return serveFlow(processes);
+  // One program for both wings: its name says which.
+  bool left = false;
+  for (int i = 1; i < argc; ++i)
+    left = left || std::string(argv[i]) == std::string("__name:=") + roleName(Role::kFluidLeft);
+  return participantMain(left ? Role::kFluidLeft : Role::kFluid, argc, argv);
 }
 
 int participantMain(Role role, int argc, char** argv) {

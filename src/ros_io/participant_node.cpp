@@ -17,8 +17,12 @@ Case readCase(Role role) {
   XmlRpc::XmlRpcValue values = parametersOf(kNamespace);
   const RunParameters parameters = runParameters(values, std::string(kNamespace) + "/");
   Case c = loadCase(parameters);
+  if (role == Role::kFluid || role == Role::kFluidLeft) requireProcesses(parameters, c);
+  if (role == Role::kFluidLeft && c.mirrored)
+    throw InputError(std::string(roleName(role)) +
+                     ": this case has mirrored wings, one fluid is enough; leave this node out, or "
+                     "fly with wings:=independent");
   if (role == Role::kFluid) {
-    requireProcesses(parameters, c);
     std::cout << plannedRun(parameters, c, true) << std::flush;
   }
   return c;

@@ -30,17 +30,20 @@ Case readCase(Section& root, Faults& faults) {
   root.text("description");
   Section insect_section = root.section("insect");
   const std::string kind = insect_section.textOf("kind");
-  const auto insect = readInsect(std::move(insect_section), faults);
+  c.mirrored = root.choice("wings", {"mirrored", "independent"}) != "independent";
+  if (kind == "bare_wing" && !c.mirrored)
+    faults.add("wings = independent: a bare wing is one wing; set wings to mirrored");
+  const auto insect = readInsect(std::move(insect_section), c.mirrored, faults);
   if (insect) c.insect = *insect;
-  const CaseWind wind = readFluid(root.section("fluid"), kind == "butterfly", c, faults);
+  const CaseWind wind = readFluid(root.section("fluid"), kind == "butterfly" && c.mirrored, c, faults);
   readGrid(root.section("grid"), c, faults);
   const double chord =
-      insect ? insect->planform.meanChord() : std::numeric_limits<double>::infinity();
+      insect ? insect->meanChord() : std::numeric_limits<double>::infinity();
   const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", chord, faults);
   const InitialValues initial = readInitial(root);
-  c.free = readFree(root.section("free"));
+  c.free = readFree(root.section("free"), c.mirrored);
   readTime(root.section("time"), motion.frequency, c);
-  readCoupling(root.section("coupling"), insect ? insect->planform.meanChord() : 1.0, c, faults);
+  readCoupling(root.section("coupling"), insect ? insect->meanChord() : 1.0, c, faults);
   c.guidance = readGuidance(root.section("guidance"), motion.frequency, c, faults);
   readOutput(root.section("output"), c);
   c.watchdog_s = root.number("watchdog_s", {Bound::kPositive, "s", "60 is usual"});

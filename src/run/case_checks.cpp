@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "monarch_flight/fluid/grid.h"
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/math/rotation.h"
 #include "monarch_flight/run/wing_speeds.h"
 #include "run/case_parts.h"
 
@@ -17,6 +19,18 @@ std::optional<StartValue> completed(const std::optional<double>& q, const std::o
   return StartValue{q.value_or(prescribed.q), qd.value_or(prescribed.qd)};
 }
 
+StartAttitude startAttitude(const InitialValues& initial, const BodyState& body) {
+  const Eigen::Vector3d angles = rollPitchYaw(body.R_IB);
+  StartAttitude start;
+  start.R_IB = rotationZ(initial.yaw.value_or(angles.z())) *
+               rotationY(initial.theta_B.value_or(angles.y())) *
+               rotationX(initial.roll.value_or(angles.x()));
+  start.Omega_B = {initial.roll_rate.value_or(body.Omega_B.x()),
+                   initial.theta_B_dot.value_or(body.Omega_B.y()),
+                   initial.yaw_rate.value_or(body.Omega_B.z())};
+  return start;
+}
+
 std::optional<double> component(const std::optional<Eigen::Vector3d>& v, int i) {
   return v ? std::optional<double>((*v)[i]) : std::nullopt;
 }
@@ -26,7 +40,7 @@ void checkPrescribedComponents(const char* key, const std::optional<Eigen::Vecto
                                const Eigen::Vector3d& prescribed, const FreeCoordinates& free,
                                Faults& faults) {
   if (!given) return;
-  const bool is_free[3] = {free.x, false, free.z};
+  const bool is_free[3] = {free[kX], free[kY], free[kZ]};
   for (int i = 0; i < 3; ++i) {
     if (is_free[i] || std::abs((*given)[i] - prescribed[i]) <= 1e-12) continue;
     std::ostringstream text;
@@ -37,22 +51,24 @@ void checkPrescribedComponents(const char* key, const std::optional<Eigen::Vecto
   }
 }
 
+constexpr std::pair<const char*, FreeCoordinate> kBodyKeys[] = {
+    {"x", kX}, {"y", kY}, {"z", kZ}, {"roll", kRoll}, {"pitch", kPitch}, {"yaw", kYaw}};
+
 }  // namespace
 
 void checkFree(const Case& c, Faults& faults) {
   const FreeCoordinates& f = c.free;
   if (c.insect.bare_wing) {
-    for (const auto& [name, is_free] :
-         {std::pair{"x", f.x}, std::pair{"z", f.z}, std::pair{"pitch", f.pitch}}) {
-      if (!is_free) continue;
+    for (const auto& [name, i] : kBodyKeys) {
+      if (!f[i]) continue;
       faults.add(
           std::string("free/") + name +
           " = true: must be false: a bare wing has no body to move; only wing_pitch may be free");
     }
   }
-  if (f.wing_pitch && !(c.insect.right.J(1, 1) > 0.0)) {
+  if (f[kThetaR] && !(c.insect.wings.right.plate.J(1, 1) > 0.0)) {
     std::ostringstream text;
-    text << "insect/wing/mass = " << c.insect.right.m
+    text << "insect/wing/mass = " << c.insect.wings.right.plate.m
          << " kg: must be > 0 kg when free/wing_pitch is "
          << "true; give the wing's mass or set free/wing_pitch false";
     faults.add(text.str());
@@ -93,21 +109,28 @@ StartValues startValues(const Case& c, const InitialValues& initial, const Presc
     faults.add(std::string("initial/") + key + " = " + exactText(*value) + ": free/" + free_key +
                " is false: must be none; free the coordinate or change the motion");
   };
-  needsFree("theta_B", initial.theta_B, c.free.pitch, "pitch");
-  needsFree("theta_B_dot", initial.theta_B_dot, c.free.pitch, "pitch");
-  needsFree("theta_R", initial.theta_R, c.free.wing_pitch, "wing_pitch");
-  needsFree("theta_R_dot", initial.theta_R_dot, c.free.wing_pitch, "wing_pitch");
+  needsFree("theta_B", initial.theta_B, c.free[kPitch], "pitch");
+  needsFree("theta_B_dot", initial.theta_B_dot, c.free[kPitch], "pitch");
+  needsFree("roll", initial.roll, c.free[kRoll], "roll");
+  needsFree("roll_rate", initial.roll_rate, c.free[kRoll], "roll");
+  needsFree("yaw", initial.yaw, c.free[kYaw], "yaw");
+  needsFree("yaw_rate", initial.yaw_rate, c.free[kYaw], "yaw");
+  needsFree("theta_R", initial.theta_R, c.free[kThetaR], "wing_pitch");
+  needsFree("theta_R_dot", initial.theta_R_dot, c.free[kThetaR], "wing_pitch");
 
   StartValues start;
   const auto along = [&](int i) {
     return completed(component(initial.position, i), component(initial.velocity, i),
                      {body.x[i], body.v[i], body.a[i]});
   };
-  if (c.free.x) start.x = along(0);
-  if (c.free.z) start.z = along(2);
-  if (c.free.pitch) start.pitch = completed(initial.theta_B, initial.theta_B_dot, body.pitch);
-  if (c.free.wing_pitch) {
-    start.theta_R = completed(initial.theta_R, initial.theta_R_dot, at_start.angles.theta);
+  if (c.free[kX]) start.x = along(0);
+  if (c.free[kY]) start.y = along(1);
+  if (c.free[kZ]) start.z = along(2);
+  if (c.free[kPitch]) start.pitch = completed(initial.theta_B, initial.theta_B_dot, body.pitch);
+  if (initial.roll || initial.yaw || initial.roll_rate || initial.yaw_rate)
+    start.attitude = startAttitude(initial, body);
+  if (c.free[kThetaR]) {
+    start.theta_R = completed(initial.theta_R, initial.theta_R_dot, at_start.angles.wings.right.theta);
   }
   return start;
 }
@@ -115,12 +138,14 @@ StartValues startValues(const Case& c, const InitialValues& initial, const Presc
 void checkGrid(const Case& c, Faults& faults) {
   if (c.fluid != FluidKind::kNavierStokes) return;
   try {
-    makeGrid(c.insect.planform, c.grid);
+    for (Side side : c.sides()) makeGrid(c.insect.wings[side].planform, c.grid);
   } catch (const InputError& e) {
     faults.add(e.what());
   }
   const double speed = peakWingSpeeds(c).outline;
-  const double cell = c.insect.planform.meanChord() / c.grid.cells_per_chord;
+  double chord = c.insect.wings.right.planform.meanChord();
+  for (Side side : c.sides()) chord = std::min(chord, c.insect.wings[side].planform.meanChord());
+  const double cell = chord / c.grid.cells_per_chord;
   const double courant = speed * c.time.dt / cell;
   if (courant <= c.grid.courant_limit) return;
   const double longest = c.grid.courant_limit * cell / speed;

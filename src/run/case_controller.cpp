@@ -95,7 +95,7 @@ void checkAgainst(const Case& c, const ControllerSettings& s, Section& section) 
                                  std::to_string(std::lround(steps)) +
                                  " steps of a flap; change time/steps_per_flap");
   }
-  if (!c.free.x || !c.free.z || !c.free.pitch)
+  if (!c.free[kX] || !c.free[kZ] || !c.free[kPitch])
     section.fault("inputs",
                   ": there is no free flight to control: free/x, free/z and free/pitch must be "
                   "true; free them, or take guidance/type motion");
@@ -110,7 +110,7 @@ std::optional<ControllerSettings> readController(Section section, const Case& c,
   s.inputs = readInputs(section);
   s.time_constant = section.number(
       "time_constant", {Bound::kPositive, "flaps", "it is that for which the gains were made"});
-  s.wing_pitch = c.free.wing_pitch;
+  s.wing_pitch = c.free[kThetaR];
   s.first_step = static_cast<std::uint32_t>(std::max(c.coupling.prescribed_steps, 0));
   const std::size_t m = s.inputs.size();
   s.set_points = readSetPoints(section.section("set_points"));

@@ -23,7 +23,7 @@ std::vector<std::string> kindNames() {
 std::string unitOf(const CommandInfo& info) { return info.unit; }
 
 /// Bounds of every command, and the largest change over a flap.
-void readLimits(Section& section, double period, WingbeatSettings& settings) {
+void readLimits(Section& section, double period, bool mirrored, WingbeatSettings& settings) {
   Section limits = section.section("limits");
   Section rates = section.section("rates");
   for (std::size_t i = 0; i < kCommands; ++i) {
@@ -40,6 +40,11 @@ void readLimits(Section& section, double period, WingbeatSettings& settings) {
     settings.limits[i].rate =
         rates.number(info.name, {Bound::kPositive, unitOf(info) + " a flap", "1 is usual"}) /
         period;
+  }
+  if (mirrored) {
+    for (Command difference : {kAmplitudeDifference, kFlappingDifference, kDeviationDifference,
+                               kRestAngleDifference})
+      settings.limits[difference].low = settings.limits[difference].high = 0.0;
   }
   limits.finish();
   rates.finish();
@@ -105,7 +110,7 @@ GuidanceSettings readGuidance(Section section, double frequency, const Case& c, 
   const double time_constant =
       section.number("time_constant", {Bound::kPositive, "flaps", "0.25 is usual"});
   settings.wingbeat.time_constant = time_constant * period;
-  readLimits(section, period, settings.wingbeat);
+  readLimits(section, period, c.mirrored, settings.wingbeat);
   if (settings.kind == GuidanceKind::kReplay) {
     try {
       settings.replay = readReplay(section);

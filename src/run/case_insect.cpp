@@ -109,7 +109,38 @@ std::optional<Planform> readPlanform(Section section, Faults& faults) {
   return planform;
 }
 
-std::optional<Insect> readInsect(Section section, Faults& faults) {
+namespace {
+
+/// What one wing of two has of its own, in section `right_wing` or `left_wing`: keys that are not
+/// there are those of both wings, in `wing`.
+void readOwnWing(Section& insect, const std::string& key, WingParameters both, Wing& wing,
+                 Faults& faults) {
+  if (!insect.has(key)) return;
+  Section w = insect.section(key);
+  const auto own = [&w](const char* name, const char* unit, double& value) {
+    if (w.has(name)) value = w.number(name, {Bound::kAny, unit, ""});
+  };
+  own("mass", "kg", both.mass);
+  if (w.has("root")) both.root = w.vector3("root", "m");
+  own("kappa", "N m/rad", both.kappa);
+  own("theta_0", "rad", both.theta_0);
+  std::optional<Planform> planform = wing.planform;
+  if (w.has("planform")) planform = readPlanform(w.section("planform"), faults);
+  double lost = 0.0;
+  own("tip_lost", "", lost);
+  if (!(lost >= 0.0 && lost <= 0.9))
+    w.fault("tip_lost", " = " + exactText(lost) +
+                            ": must be in [0, 0.9], the share of the area that is cut off");
+  w.finish();
+  if (!w.clean() || !planform) return;
+  both.mass *= 1.0 - lost;
+  wing = makeWing(both, planform->withoutTip(lost));
+  faults.add(wingProblems(key, wing));
+}
+
+}  // namespace
+
+std::optional<Insect> readInsect(Section section, bool mirrored, Faults& faults) {
   const std::string kind = section.choice("kind", {"butterfly", "bare_wing"});
   const std::string name = section.name("name");
   if (kind.empty()) return std::nullopt;
@@ -134,12 +165,18 @@ std::optional<Insect> readInsect(Section section, Faults& faults) {
   wing.theta_0 = w.number("theta_0", {Bound::kAny, "rad", ""});
   const auto planform = readPlanform(w.section("planform"), faults);
   w.finish();
-  section.finish();
   // Bounds are checked even when other keys are faulty: all faults at once.
   const Planform any = planform ? *planform : Planform::rectangle(1.0, 1.0, 0.0);
-  const Insect insect =
+  Insect insect =
       bare ? makeBareWing(name, wing, any) : makeButterfly(name, body, abdomen, joint, wing, any);
   faults.add(insect.problems());
+  for (const auto& [key, side] : {std::pair{"right_wing", Side::kRight}, {"left_wing", Side::kLeft}}) {
+    if (section.has(key) && mirrored)
+      section.fault(key, ": must not be given while one wing is the mirror image of the other; set "
+                         "wings to independent, or change insect/wing");
+    readOwnWing(section, key, wing, insect.wings[side], faults);
+  }
+  section.finish();
   if (!section.clean() || !planform) return std::nullopt;
   return insect;
 }

@@ -12,7 +12,7 @@ namespace {
 // In a natural period of the hinge: theta_R is then 10 % off (docs/case_files.md, time).
 constexpr double kLeastSteps = 10.0;
 constexpr double kMostTurn = 1.0;  // of the wing in a step [rad]: six steps in a turn
-constexpr char kMirrored[] = " m/s: must be 0 while only one wing is solved and mirrored; ";
+constexpr char kMirrored[] = " m/s: must be 0 while only one wing is solved and mirrored, unless wings is independent; ";
 
 /// How to have steps of at most `dt` [s].
 std::string shorterSteps(const Case& c, double dt) {
@@ -24,17 +24,17 @@ std::string shorterSteps(const Case& c, double dt) {
   return text.str();
 }
 
-void checkHinge(const Case& c, Faults& faults) {
-  if (!c.free.wing_pitch || !(c.insect.kappa > 0.0)) return;
-  const double added =
-      makeQuasiSteady(c.insect.planform, c.air, c.blade_element)->addedMass()(4, 4);
-  const double inertia = c.insect.right.J(1, 1) + added;
-  const double period = 2.0 * M_PI * std::sqrt(inertia / c.insect.kappa);
+void checkHinge(const Case& c, const Wing& wing, const char* section, Faults& faults) {
+  if (!c.free[kThetaR] || !(wing.kappa > 0.0)) return;
+  const double added = makeQuasiSteady(wing.planform, c.air, c.blade_element)->addedMass()(4, 4);
+  const double inertia = wing.plate.J(1, 1) + added;
+  const double period = 2.0 * M_PI * std::sqrt(inertia / wing.kappa);
   const double longest = period / kLeastSteps;
   if (c.time.dt <= longest) return;
   std::ostringstream text;
-  text << "insect/wing/kappa = " << c.insect.kappa << " N m/rad: the free wing swings in " << period
-       << " s on this hinge: must be at least " << kLeastSteps << " steps of dt = " << c.time.dt
+  text << "insect/" << section << "/kappa = " << wing.kappa << " N m/rad: the free wing swings in "
+       << period << " s on this hinge: must be at least " << kLeastSteps
+       << " steps of dt = " << c.time.dt
        << " s, else the time step makes its swings; take kappa <= "
        << inertia * std::pow(2.0 * M_PI / (kLeastSteps * c.time.dt), 2) << ", or "
        << shorterSteps(c, longest);
@@ -54,17 +54,24 @@ void checkTurns(const Case& c, Faults& faults) {
 }  // namespace
 
 void checkTimeStep(const Case& c, Faults& faults) {
-  checkHinge(c, faults);
+  checkHinge(c, c.insect.wings.right, "wing", faults);
+  if (!c.mirrored) checkHinge(c, c.insect.wings.left, "left_wing", faults);
   checkTurns(c, faults);
 }
 
 void checkMirrored(const Case& c, const CaseMotion& motion, const InitialValues& initial,
                    Faults& faults) {
-  if (c.insect.bare_wing) return;
+  if (c.insect.bare_wing || !c.mirrored) return;
   if (!motion.lateral.empty()) faults.add(motion.lateral);
   if (initial.velocity && initial.velocity->y() != 0.0) {
     faults.add("initial/velocity[1] = " + exactText(initial.velocity->y()) + kMirrored +
                "set it to 0");
+  }
+  for (const auto& [name, i] : {std::pair{"y", kY}, {"roll", kRoll}, {"yaw", kYaw}}) {
+    if (c.free[i])
+      faults.add(std::string("free/") + name +
+                 " = true: must be false while one wing is the mirror image of the other; set it to "
+                 "false, or wings to independent");
   }
 }
 

@@ -157,7 +157,8 @@ InitialValues readInitial(Section& root) {
   if (!root.has("initial")) {
     Section section = root.putSection("initial");
     for (const char* key :
-         {"position", "velocity", "theta_B", "theta_B_dot", "theta_R", "theta_R_dot"}) {
+         {"position", "velocity", "theta_B", "theta_B_dot", "theta_R", "theta_R_dot", "roll", "yaw",
+          "roll_rate", "yaw_rate"}) {
       section.put(key, std::string("none"));
     }
     return initial;
@@ -169,6 +170,10 @@ InitialValues readInitial(Section& root) {
   initial.theta_B_dot = section.maybeNumber("theta_B_dot", {Bound::kAny, "rad/s", "or none"});
   initial.theta_R = section.maybeNumber("theta_R", {Bound::kAny, "rad", "or none"});
   initial.theta_R_dot = section.maybeNumber("theta_R_dot", {Bound::kAny, "rad/s", "or none"});
+  initial.roll = section.maybeNumber("roll", {Bound::kAny, "rad", "or none"});
+  initial.yaw = section.maybeNumber("yaw", {Bound::kAny, "rad", "or none"});
+  initial.roll_rate = section.maybeNumber("roll_rate", {Bound::kAny, "rad/s", "or none"});
+  initial.yaw_rate = section.maybeNumber("yaw_rate", {Bound::kAny, "rad/s", "or none"});
   section.finish();
   return initial;
 }

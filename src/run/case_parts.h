@@ -26,6 +26,7 @@ struct CaseMotion {
 struct InitialValues {
   std::optional<Eigen::Vector3d> position, velocity;
   std::optional<double> theta_B, theta_B_dot, theta_R, theta_R_dot;
+  std::optional<double> roll, yaw, roll_rate, yaw_rate;  ///< rates about the body's axes
 };
 
 /// A gust as written.
@@ -46,7 +47,8 @@ struct CaseWind {
 
 // One reader a section of the case file (docs/case_files.md). They add faults and return harmless
 // values.
-std::optional<Insect> readInsect(Section section, Faults& faults);
+/// `mirrored`: both wings are the same.
+std::optional<Insect> readInsect(Section section, bool mirrored, Faults& faults);
 std::optional<Planform> readPlanform(Section section, Faults& faults);
 /// `mirrored`: one wing of two is solved, so that the wind must not blow from the side.
 CaseWind readFluid(Section section, bool mirrored, Case& c, Faults& faults);
@@ -58,7 +60,7 @@ CaseMotion readMotion(Section section, bool bare_wing, double chord, Faults& fau
 InitialValues readInitial(Section& root);
 /// `c`: with what is free, time and coupling read.
 GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults);
-FreeCoordinates readFree(Section section);
+FreeCoordinates readFree(Section section, bool mirrored);
 void readTime(Section section, double frequency, Case& c);
 void readCoupling(Section section, double mean_chord, Case& c, Faults& faults);
 void readOutput(Section section, Case& c);

@@ -73,12 +73,16 @@ void readGrid(Section section, Case& c, Faults& faults) {
   faults.add(g.problems());
 }
 
-FreeCoordinates readFree(Section section) {
+FreeCoordinates readFree(Section section, bool mirrored) {
   FreeCoordinates free;
-  free.x = section.flag("x");
-  free.z = section.flag("z");
-  free.pitch = section.flag("pitch");
-  free.wing_pitch = section.flag("wing_pitch");
+  free[kX] = section.flag("x");
+  free[kY] = section.flag("y");
+  free[kZ] = section.flag("z");
+  free[kRoll] = section.flag("roll");
+  free[kPitch] = section.flag("pitch");
+  free[kYaw] = section.flag("yaw");
+  free[kThetaR] = section.flag("wing_pitch");
+  free[kThetaL] = free[kThetaR] && !mirrored;
   section.finish();
   return free;
 }

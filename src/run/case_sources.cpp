@@ -107,6 +107,7 @@ void checkTwins(const YAML::Node& map, const std::string& above, Faults& faults)
 void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& faults) {
   const std::map<std::string, std::pair<const char*, const char*>> known{
       {"fluid", {"fluid", "solver"}},
+      {"wings", {"", "wings"}},
       {"guidance", {"guidance", "type"}},
       {"guidance_file", {"guidance", "file"}},
       {"flaps", {"time", "flaps"}},
@@ -122,11 +123,15 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
     const auto target = known.find(key);
     if (target == known.end()) {
       faults.add(key + ":=" + value +
-                 " is not a known override: known are fluid, grid, guidance, guidance_file, flaps, "
+                 " is not a known override: known are fluid, grid, wings, guidance, guidance_file, flaps, "
                  "steps_per_flap, record, fields_every, checkpoint_every; correct or remove it");
       continue;
     }
     const auto [section, name] = target->second;
+    if (*section == '\0') {
+      root[name] = value;
+      continue;
+    }
     if (!get(root, section).IsDefined() || !get(root, section).IsMap()) continue;
     root[section][name] = value;
     if (key == "guidance_file") root[section].remove("rows");  // of a resolved case

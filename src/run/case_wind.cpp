@@ -8,7 +8,7 @@ namespace {
 
 constexpr char kMirrored[] =
     " m/s: must be 0 while only one wing is solved and mirrored; set it to 0, or choose "
-    "insect/kind bare_wing";
+    "wings independent";
 
 /// A velocity, of which `mirrored` forbids y.
 Eigen::Vector3d readVelocity(Section& section, const std::string& key, bool mirrored) {

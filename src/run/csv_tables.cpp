@@ -25,11 +25,12 @@ void putInteger(std::string& row, unsigned long value) { row += std::to_string(v
 
 /// What a replay needs beside the columns above (guidance/replay_guidance.h).
 void putGuidance(std::string& row, const CommittedStep& step) {
-  for (const Coordinate* c : {&step.angles.phi, &step.angles.psi, &step.angles.theta_A}) {
+  const WingAngles& wing = step.angles.wings.right;
+  for (const Coordinate* c : {&wing.phi, &wing.psi, &step.angles.theta_A}) {
     put(row, c->qd);
     put(row, c->qdd);
   }
-  put(row, step.guided.rest_angle);
+  put(row, step.guided.rest_angle.right);
   put(row, step.guided.wind.v);
   put(row, step.guided.wind.a);
   const GuidanceReport& report = step.guidance;
@@ -40,6 +41,21 @@ void putGuidance(std::string& row, const CommittedStep& step) {
   for (const WingbeatChange* change : {&report.command, &report.applied}) {
     for (const CommandInfo& info : kCommandTable) put(row, change->*info.value);
   }
+}
+
+/// The left wing as its mirror image: in a symmetric flight the numbers of the right one. Attitude
+/// and rates of a body that leaves its plane.
+void putSides(std::string& row, const CommittedStep& step) {
+  const WingAngles& wing = step.angles.wings.left;
+  for (const Coordinate* c : {&wing.phi, &wing.psi, &wing.theta}) put(row, *c);
+  put(row, step.guided.rest_angle.left);
+  put(row, step.loads.left.force());
+  put(row, step.loads.left.moment());
+  const BodyState& body = step.interface.body;
+  const Eigen::Vector3d angles = rollPitchYaw(body.R_IB);
+  put(row, angles.x());
+  put(row, angles.z());
+  put(row, body.Omega_B);
 }
 
 void endRow(std::string& row) { row.back() = '\n'; }
@@ -74,6 +90,9 @@ const std::string& FlightTable::header() {
     for (const char* kind : {",command_", ",applied_"}) {
       for (const CommandInfo& info : kCommandTable) all += std::string(kind) + info.name;
     }
+    all +=
+        ",phi_L,phi_L_dot,phi_L_ddot,psi_L,psi_L_dot,psi_L_ddot,theta_L,theta_L_dot,theta_L_ddot,"
+        "rest_angle_L,fx_L,fy_L,fz_L,mx_L,my_L,mz_L,roll,yaw,p,q,r";
     return all;
   }();
   return names;
@@ -106,26 +125,31 @@ void FlightTable::append(const CommittedStep& step) {
   put(row_, body.a);
   put(row_, body.pitch);
   for (double component : {q.w(), q.x(), q.y(), q.z()}) put(row_, component);
-  put(row_, step.angles.phi.q);
-  put(row_, step.angles.psi.q);
-  put(row_, step.interface.theta_R);
+  put(row_, step.angles.wings.right.phi.q);
+  put(row_, step.angles.wings.right.psi.q);
+  put(row_, step.interface.theta.right);
   put(row_, step.angles.theta_A.q);
-  put(row_, step.loads.force());
-  put(row_, step.loads.moment());
-  put(row_, step.loads.force_pressure);
-  put(row_, step.loads.moment_pressure);
+  const Loads& right = step.loads.right;
+  put(row_, right.force());
+  put(row_, right.moment());
+  put(row_, right.force_pressure);
+  put(row_, right.moment_pressure);
   put(row_, step.force_I);
   putInteger(row_, step.iterations.size());
   put(row_, step.fluid.courant);
   putGuidance(row_, step);
+  putSides(row_, step);
   endRow(row_);
   file_.write(row_);
 }
 
 const std::string& IterationTable::header() {
-  static const std::string names =
-      "step,iteration,t,residual_x,residual_z,residual_theta_B,residual_theta_R,load_residual,"
-      "relaxation,fluid_wall_s,attempt";
+  static const std::string names = [] {
+    std::string all = "step,iteration,t,";
+    for (const CoordinateInfo& info : kCoordinateTable)
+      all += std::string("residual_") + info.name + ",";
+    return all + "load_residual,relaxation,fluid_wall_s,attempt";
+  }();
   return names;
 }
 

@@ -53,14 +53,16 @@ class SinkChain : public StepSink {
 
 }  // namespace
 
-std::unique_ptr<FluidModel> makeFluid(const Case& c) {
+std::unique_ptr<FluidModel> makeFluid(const Case& c, Side side) {
+  const Planform& planform = c.insect.wings[side].planform;
   if (c.fluid == FluidKind::kQuasiSteady)
-    return makeQuasiSteady(c.insect.planform, c.air, c.blade_element);
-  return makeNavierStokes(c.insect.planform, c.air, c.grid, c.watchdog_s);
+    return makeQuasiSteady(planform, c.air, c.blade_element);
+  return makeNavierStokes(planform, c.air, c.grid, c.watchdog_s);
 }
 
 CoupledModel makeModel(const Case& c) {
   CoupledModel model{c.insect};
+  model.mirrored = c.mirrored;
   model.free = c.free;
   model.newmark.dt = c.time.dt;
   model.gravity = c.gravity;
@@ -95,12 +97,21 @@ std::unique_ptr<Guidance> makeGuidance(const Case& c, std::shared_ptr<CommandInb
                                             std::move(source));
 }
 
+std::vector<Role> rolesOf(const Case& c) {
+  std::vector<Role> roles(kAllRoles.begin(), kAllRoles.end());
+  if (c.mirrored) roles.pop_back();  // the left wing's air
+  return roles;
+}
+
 std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
                                              const std::string& checkpoints,
                                              std::shared_ptr<CommandInbox> inbox) {
   const CoupledModel model = makeModel(c);
   std::unique_ptr<SolverParticipant> solver;
-  if (role == Role::kFluid) solver = std::make_unique<FluidParticipant>(model, makeFluid(c));
+  for (Side side : kSides) {
+    if (role == kFluids[side])
+      solver = std::make_unique<FluidParticipant>(side, model, makeFluid(c, side));
+  }
   if (role == Role::kFlight) solver = std::make_unique<FlightParticipant>(model);
   if (role == Role::kWing) solver = std::make_unique<WingParticipant>(model);
   if (role == Role::kGuidance)
@@ -125,8 +136,8 @@ RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& parti
 }
 
 InProcessFederation::InProcessFederation(const Case& c, const std::string& checkpoints) : case_(c) {
-  for (std::size_t i = 0; i < kRoles; ++i)
-    participants_[i] = makeParticipant(static_cast<Role>(i), c, checkpoints);
+  for (Role role : rolesOf(c))
+    participants_[static_cast<std::size_t>(role)] = makeParticipant(role, c, checkpoints);
 }
 
 RunResult InProcessFederation::run(std::uint64_t run_id, const std::vector<StepSink*>& sinks,

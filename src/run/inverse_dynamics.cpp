@@ -53,14 +53,15 @@ RequiredLoads requiredAt(const MultibodyDynamics& dynamics, const Case& c,
   body.v = vectorAt(row, 4);
   body.a = vectorAt(row, 7);
   JointAngles angles = state.angles;
-  angles.theta = {row[13], row[14], row[15]};
+  const Coordinate theta{row[13], row[14], row[15]};
+  for (Side side : kSides) angles.wings[side].theta = theta;
   Loads right;
   right.force_pressure = vectorAt(row, 16);
   right.moment_pressure = vectorAt(row, 19);
   const InsectMotion motion = insectMotion(c.insect.beta, body, angles);
   const Vector15d required = dynamics.inertialForce(motion) - dynamics.gravityForce(motion) -
-                             dynamics.airForce(motion, right);
-  return {row[0],      angles.theta, required.segment<3>(6), required(13), required(0),
+                             dynamics.airForce(motion, {right, right});
+  return {row[0],      theta, required.segment<3>(6), required(13), required(0),
           required(2), required(4)};
 }
 
@@ -92,7 +93,7 @@ void printSummary(const std::vector<RequiredLoads>& rows, const Case& c, std::os
       rms(rows, &RequiredLoads::force_x), rms(rows, &RequiredLoads::force_z),
       rms(rows, &RequiredLoads::pitch), fit.torque_rms, fit.power, fit.spring_kappa,
       fit.spring_theta_0 * kDegrees, 100.0 * fit.spring_share, fit.kappa, fit.theta_0 * kDegrees,
-      fit.damping, 100.0 * fit.damped_share, c.insect.kappa, c.insect.theta_0 * kDegrees);
+      fit.damping, 100.0 * fit.damped_share, c.insect.wings.right.kappa, c.insect.wings.right.theta_0 * kDegrees);
   out << text;
 }
 

@@ -56,7 +56,7 @@ double cellsWithin(const Grid& grid, double height) {
 }
 
 void planGrid(const Case& c, const Grid& grid, RunPlan& plan) {
-  const Planform& wing = c.insect.planform;
+  const Planform& wing = c.insect.wings.right.planform;
   plan.cells_x = grid.x.n();
   plan.cells_y = grid.y.n();
   plan.cells_z = grid.z.n();
@@ -92,7 +92,7 @@ void planSpeeds(const Case& c, RunPlan& plan) {
 }
 
 void planTime(const Case& c, long unknowns, RunPlan& plan) {
-  const FlowCost cost = measureFlowCost(c.insect.planform, c.grid);
+  const FlowCost cost = measureFlowCost(c.insect.wings.right.planform, c.grid);
   const bool prescribed = c.free.count() == 0;
   plan.steps = c.time.steps;
   plan.evaluations = prescribed ? 1.0 : kEvaluationsFree;
@@ -133,14 +133,17 @@ std::string timeText(double seconds) {
 double RunPlan::watchdogNeeded() const { return std::max(setup_s / kStartByExchange, exchange_s); }
 
 RunPlan planRun(const Case& c, int ranks, int here) {
-  const Grid grid = makeGrid(c.insect.planform, c.grid);
+  const Grid grid = makeGrid(c.insect.wings.right.planform, c.grid);
   RunPlan plan;
   plan.ranks = ranks;
   plan.ranks_here = here > 0 ? here : ranks;
   planGrid(c, grid, plan);
   planSpeeds(c, plan);
-  plan.memory = flowMemory(grid, ranks, plan.ranks_here);
-  if (c.output.checkpoint_every > 0) plan.memory += checkpointMemory(grid);
+  for (Side side : c.sides()) {
+    const Grid own = makeGrid(c.insect.wings[side].planform, c.grid);
+    plan.memory += flowMemory(own, ranks, plan.ranks_here);
+    if (c.output.checkpoint_every > 0) plan.memory += checkpointMemory(own);
+  }
   plan.memory_left = availableMemory();
   planTime(c, capacitanceUnknowns(grid), plan);
   return plan;

@@ -7,7 +7,7 @@
 namespace monarch_flight {
 namespace {
 
-// The 43 doubles of a step as little-endian bytes.
+// The doubles of a step as little-endian bytes: 43, and 15 of a left wing of its own.
 class Layout {
  public:
   void put(double value) {
@@ -27,9 +27,15 @@ class Layout {
   std::size_t size() const { return size_; }
 
  private:
-  std::array<unsigned char, 43 * 8> bytes_{};
+  std::array<unsigned char, 58 * 8> bytes_{};
   std::size_t size_ = 0;
 };
+
+void putLoads(Layout& layout, const Loads& loads) {
+  for (const auto* v : {&loads.force_pressure, &loads.force_friction, &loads.moment_pressure,
+                        &loads.moment_friction})
+    layout.put(*v);
+}
 
 }  // namespace
 
@@ -41,11 +47,12 @@ void StateHash::add(const CommittedStep& step) {
   for (int i = 0; i < 3; ++i) layout.put(Eigen::Vector3d(body.R_IB.row(i)));
   for (const auto* v : {&body.Omega_B, &body.Omega_dot_B}) layout.put(*v);
   layout.put(body.pitch);
-  layout.put(step.interface.theta_R);
-  const Loads& loads = step.loads;
-  for (const auto* v : {&loads.force_pressure, &loads.force_friction, &loads.moment_pressure,
-                        &loads.moment_friction})
-    layout.put(*v);
+  layout.put(step.interface.theta.right);
+  putLoads(layout, step.loads.right);
+  if (!mirrored_) {
+    layout.put(step.interface.theta.left);
+    putLoads(layout, step.loads.left);
+  }
   hash_.add(layout.data(), layout.size());
 }
 

@@ -53,13 +53,13 @@ void Range::add(double value) {
 }
 
 Summary::Summary(const Case& c)
-    : case_(c), time_(c.time), begin_(std::chrono::steady_clock::now()) {}
+    : case_(c), time_(c.time), hash_(c.mirrored), begin_(std::chrono::steady_clock::now()) {}
 
 void Summary::add(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
   theta_B_.add(body.pitch.q);
-  theta_R_.add(step.interface.theta_R.q);
-  if (case_.free.pitch && tumbled_ == kNever && std::abs(body.pitch.q) > kTumbled)
+  theta_R_.add(step.interface.theta.right.q);
+  if (case_.free[kPitch] && tumbled_ == kNever && std::abs(body.pitch.q) > kTumbled)
     tumbled_ = step.step;
   guidance_ = step.guidance;
   if (guidance_.lost && lost_ == kNever) lost_ = step.step;

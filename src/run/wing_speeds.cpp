@@ -34,18 +34,21 @@ WingSpeeds speedsThrough(const AirAt& air, const Case& c, double duration) {
   constexpr std::uint32_t kMost = 2000;
   const double steps = std::max(1.0, std::ceil(duration / c.time.dt * (1.0 - 1e-12)));
   const auto intervals = static_cast<std::uint32_t>(std::min<double>(kMost, steps));
-  const std::vector<Eigen::Vector3d> points = outline(c.insect.planform);
+  const Sides sides = c.sides();
+  PerWing<std::vector<Eigen::Vector3d>> points;
+  for (Side side : sides) points[side] = outline(c.insect.wings[side].planform);
   WingSpeeds peak;
   for (std::uint32_t i = 0; i <= intervals; ++i) {
     const double t = c.time.t_start + duration * i / intervals;
     const PrescribedState state = c.motion->at(t);
     const BodyState& body = state.body;
-    const WingMotion wing = relativeTo(air(t, body), rightWingMotion(c.insect, body, state.angles));
-    const Eigen::Vector3d& root = wing.v_W;
-    peak.root = std::max(peak.root, root.norm());
-    peak.turn = std::max(peak.turn, wing.omega_W.norm());
-    for (const Eigen::Vector3d& point : points) {
-      peak.outline = std::max(peak.outline, (root + wing.omega_W.cross(point)).norm());
+    for (Side side : sides) {
+      const WingMotion wing = wingMotionInAir(side, c.insect, air(t, body), body, state.angles);
+      const Eigen::Vector3d& root = wing.v_W;
+      peak.root = std::max(peak.root, root.norm());
+      peak.turn = std::max(peak.turn, wing.omega_W.norm());
+      for (const Eigen::Vector3d& point : points[side])
+        peak.outline = std::max(peak.outline, (root + wing.omega_W.cross(point)).norm());
     }
   }
   return peak;
@@ -83,7 +86,7 @@ double referenceSpeed(const Case& c) {
 }
 
 double vortexThreshold(const Case& c) {
-  return 0.1 * std::pow(referenceSpeed(c) / c.insect.planform.meanChord(), 2);
+  return 0.1 * std::pow(referenceSpeed(c) / c.insect.meanChord(), 2);
 }
 
 }  // namespace monarch_flight

@@ -15,8 +15,8 @@ constexpr double kDegrees = 180.0 / M_PI;
 constexpr int kShortRunIn = 10;  // steps, the paper's start, where the air has no memory
 
 std::size_t size(const Case& c, const TrimOptions& options) {
-  const std::size_t states = (c.free.x ? 1u : 0u) + (c.free.z ? 1u : 0u) +
-                             (c.free.pitch ? 2u : 0u) + (c.free.wing_pitch ? 2u : 0u);
+  const std::size_t states = (c.free[kX] ? 1u : 0u) + (c.free[kZ] ? 1u : 0u) +
+                             (c.free[kPitch] ? 2u : 0u) + (c.free[kThetaR] ? 2u : 0u);
   return states + options.parameters.size();
 }
 

@@ -168,7 +168,7 @@ std::vector<double> around(double middle, double step) {
 
 void checkCase(const Case& c, const ControlOptions& options) {
   std::vector<std::string> faults;
-  if (!c.free.x || !c.free.z || !c.free.pitch)
+  if (!c.free[kX] || !c.free[kZ] || !c.free[kPitch])
     faults.push_back("free: x, z and pitch must be true for a flight to be controlled; free them");
   if (options.inputs.size() < 2)
     faults.push_back(
@@ -206,7 +206,7 @@ ControlDesign designController(const Case& c, const ControlOptions& options, std
   s.samples = options.samples;
   s.inputs = options.inputs;
   s.time_constant = options.time_constant;
-  s.wing_pitch = c.free.wing_pitch;
+  s.wing_pitch = c.free[kThetaR];
   s.table = tableOf(search, options, n, options.own_orbit ? &orbit : nullptr);
   setGains(design, n);
   s.set_points = {{0.0, speed, climb}};

@@ -106,7 +106,7 @@ FlapState with(FlapState state, const VectorXd& components) {
   return state;
 }
 
-int controlStates(const Case& c) { return c.free.wing_pitch ? 6 : 4; }
+int controlStates(const Case& c) { return c.free[kThetaR] ? 6 : 4; }
 
 std::array<CommandLimits, kCommands> ControlOptions::usualLimits() {
   constexpr double kDegree = M_PI / 180.0;

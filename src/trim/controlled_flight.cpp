@@ -95,7 +95,7 @@ ControlledFlight flyControlled(const Case& given, const WingbeatSettings& wingbe
   values.x = StartValue{0.0, s(0), 0.0};
   values.z = StartValue{0.0, s(1), 0.0};
   values.pitch = StartValue{s(2), s(3), 0.0};
-  if (c.free.wing_pitch) values.theta_R = StartValue{s(4), s(5), 0.0};
+  if (c.free[kThetaR]) values.theta_R = StartValue{s(4), s(5), 0.0};
   c.motion = std::make_shared<StartMotion>(c.motion, values, c.time.t_start);
   std::unique_ptr<CommandSource> source;
   if (start.uncontrolled) {

@@ -65,8 +65,8 @@ FlapMap::FlapMap(const Case& c, const std::string& config_dir,
   }
   if (!faults.empty()) throw InputError(faults);
   per_flap_ = static_cast<std::uint32_t>(steps);
-  const bool is_free[6] = {c.free.x,     c.free.z,          c.free.pitch,
-                           c.free.pitch, c.free.wing_pitch, c.free.wing_pitch};
+  const bool is_free[6] = {c.free[kX],     c.free[kZ],          c.free[kPitch],
+                           c.free[kPitch], c.free[kThetaR], c.free[kThetaR]};
   for (int i = 0; i < 6; ++i) {
     if (is_free[i]) active_.push_back(i);
   }
@@ -75,8 +75,8 @@ FlapMap::FlapMap(const Case& c, const std::string& config_dir,
 TrimPoint FlapMap::start() const {
   const PrescribedState s = base_.motion->at(base_.time.t_start);
   TrimPoint point;
-  point.state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd, s.angles.theta.q,
-      s.angles.theta.qd;
+  point.state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd, s.angles.wings.right.theta.q,
+      s.angles.wings.right.theta.qd;
   point.parameters.resize(static_cast<Eigen::Index>(parameters_.size()));
   const CaseEdit edit(base_.resolved_yaml);
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -88,7 +88,7 @@ TrimPoint FlapMap::start() const {
     samples[0].push_back(at.body.x.x());
     samples[1].push_back(at.body.x.z());
     samples[2].push_back(at.body.pitch.q);
-    samples[3].push_back(at.angles.theta.q);
+    samples[3].push_back(at.angles.wings.right.theta.q);
   }
   point.shape = flapShape(samples, base_.time, kHarmonics);
   return point;
@@ -99,10 +99,10 @@ Case FlapMap::withStart(const TrimPoint& point, const FlapState& a) const {
   const PrescribedState now = c.motion->at(c.time.t_start);
   const FlapState& s = point.state;
   StartValues start;
-  if (c.free.x) start.x = StartValue{now.body.x.x(), s(0), a(0)};
-  if (c.free.z) start.z = StartValue{now.body.x.z(), s(1), a(1)};
-  if (c.free.pitch) start.pitch = StartValue{s(2), s(3), a(3)};
-  if (c.free.wing_pitch) start.theta_R = StartValue{s(4), s(5), a(5)};
+  if (c.free[kX]) start.x = StartValue{now.body.x.x(), s(0), a(0)};
+  if (c.free[kZ]) start.z = StartValue{now.body.x.z(), s(1), a(1)};
+  if (c.free[kPitch]) start.pitch = StartValue{s(2), s(3), a(3)};
+  if (c.free[kThetaR]) start.theta_R = StartValue{s(4), s(5), a(5)};
   c.motion = std::make_shared<StartMotion>(c.motion, start, c.time.t_start);
   c.coupling.prescribed_steps = 0;
   c.coupling.accelerations_known = true;
@@ -145,21 +145,21 @@ std::string FlapMap::caseText(const TrimPoint& point, int run_in_steps, int flap
     edit.set(parameters_[i].path, point.parameters(static_cast<Eigen::Index>(i)));
   }
   Eigen::Vector3d velocity = base_.motion->at(t0).body.v;
-  if (base_.free.x) {
+  if (base_.free[kX]) {
     edit.setSeries({"motion", "body", "sway_x"}, point.shape.x, 1.0);
     velocity.x() = s(0) - rateAt(point.shape.x, f, t0);
   }
-  if (base_.free.z) {
+  if (base_.free[kZ]) {
     edit.setSeries({"motion", "body", "sway_z"}, point.shape.z, 1.0);
     velocity.z() = s(1) - rateAt(point.shape.z, f, t0);
   }
   edit.setVector({"motion", "body", "velocity"}, velocity);
   constexpr double kDegrees = 180.0 / M_PI;
-  if (base_.free.pitch) {
+  if (base_.free[kPitch]) {
     edit.setSeries({"motion", "theta_B_deg"}, through(point.shape.theta_B, f, t0, s(2), s(3)),
                    kDegrees);
   }
-  if (base_.free.wing_pitch) {
+  if (base_.free[kThetaR]) {
     edit.setSeries({"motion", "theta_R_deg"}, through(point.shape.theta_R, f, t0, s(4), s(5)),
                    kDegrees);
   }

@@ -24,7 +24,7 @@ FlapRecorder::FlapRecorder(const TimeGrid& time, std::uint32_t run_in_steps, int
 
 void FlapRecorder::onStep(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
-  const Coordinate& wing = step.interface.theta_R;
+  const Coordinate& wing = step.interface.theta.right;
   FlapState s, a;
   s << body.v.x(), body.v.z(), body.pitch.q, body.pitch.qd, wing.q, wing.qd;
   a << body.a.x(), body.a.z(), body.pitch.qd, body.pitch.qdd, wing.qd, wing.qdd;

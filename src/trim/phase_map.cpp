@@ -77,7 +77,7 @@ class LevelRecorder : public StepSink {
  public:
   void onStep(const CommittedStep& step) override {
     const BodyState& body = step.interface.body;
-    const Coordinate& wing = step.interface.theta_R;
+    const Coordinate& wing = step.interface.theta.right;
     FlapState s, a;
     s << body.v.x(), body.v.z(), body.pitch.q, body.pitch.qd, wing.q, wing.qd;
     a << body.a.x(), body.a.z(), body.pitch.qd, body.pitch.qdd, wing.qd, wing.qdd;
@@ -136,8 +136,8 @@ PhaseMap::PhaseMap(const Case& c, int samples, double time_constant)
 FlapState PhaseMap::prescribedState(int phase) const {
   const PrescribedState s = case_.motion->at(timeOf(phase));
   FlapState state;
-  state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd, s.angles.theta.q,
-      s.angles.theta.qd;
+  state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd, s.angles.wings.right.theta.q,
+      s.angles.wings.right.theta.qd;
   return state;
 }
 
@@ -185,10 +185,10 @@ RunResult PhaseMap::flyFrom(int phase, const FlapState& s, const WingbeatStart& 
   c.time.steps = steps;
   const FlapState a = rates ? *rates : FlapState::Zero();
   StartValues start;
-  if (c.free.x) start.x = StartValue{0.0, s(0), a(0)};
-  if (c.free.z) start.z = StartValue{0.0, s(1), a(1)};
-  if (c.free.pitch) start.pitch = StartValue{s(2), s(3), a(3)};
-  if (c.free.wing_pitch) start.theta_R = StartValue{s(4), s(5), a(5)};
+  if (c.free[kX]) start.x = StartValue{0.0, s(0), a(0)};
+  if (c.free[kZ]) start.z = StartValue{0.0, s(1), a(1)};
+  if (c.free[kPitch]) start.pitch = StartValue{s(2), s(3), a(3)};
+  if (c.free[kThetaR]) start.theta_R = StartValue{s(4), s(5), a(5)};
   c.motion = std::make_shared<StartMotion>(case_.motion, start, c.time.t_start);
   c.coupling.accelerations_known = rates != nullptr;
   return flyLed(c, std::make_unique<StartedWingbeat>(c, time_constant_, wingbeat), {&sink});

@@ -117,9 +117,9 @@ std::string trimmedCase(const FlapMap& map, const TrimOptions& options, const Tr
                      targetsText(options, result);
   }
   const Case& c = map.baseCase();
-  if (c.free.x || c.free.z) comments["motion/body"] = "status: " + how;
-  if (c.free.pitch) comments["motion/theta_B_deg"] = "Run-in and start; status: " + how;
-  if (c.free.wing_pitch) comments["motion/theta_R_deg"] = "Run-in and start; status: " + how;
+  if (c.free[kX] || c.free[kZ]) comments["motion/body"] = "status: " + how;
+  if (c.free[kPitch]) comments["motion/theta_B_deg"] = "Run-in and start; status: " + how;
+  if (c.free[kThetaR]) comments["motion/theta_R_deg"] = "Run-in and start; status: " + how;
   comments["coupling/prescribed_steps"] = "The run-in: these steps fly the periodic motion above.";
   std::ostringstream head;
   head << "# Made by scripts/trim (docs/trim.md) from the case " << c.name

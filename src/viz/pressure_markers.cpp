@@ -81,12 +81,12 @@ visualization_msgs::Marker colourBar(const Eigen::Vector3d& foot, double height,
 
 }  // namespace
 
-visualization_msgs::MarkerArray pressureMarkers(const SurfacePressure& surface,
+visualization_msgs::MarkerArray pressureMarkers(const PerWing<SurfacePressure>& surface,
                                                 const PressureReference& reference, bool bare_wing,
                                                 double lift, const ros::Time& stamp) {
   visualization_msgs::MarkerArray out;
-  out.markers.push_back(wing(surface, reference, false, lift, stamp));
-  if (!bare_wing) out.markers.push_back(wing(surface, reference, true, lift, stamp));
+  out.markers.push_back(wing(surface.right, reference, false, lift, stamp));
+  if (!bare_wing) out.markers.push_back(wing(surface.left, reference, true, lift, stamp));
   return out;
 }
 

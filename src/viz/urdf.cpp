@@ -64,7 +64,7 @@ std::string hinge(const std::string& name, const std::string& parent, const std:
 // Shoulder and the three joints of one wing: Q = exp(beta e2) exp(+-phi e1) exp(-+psi e3) exp(theta
 // e2).
 std::string wing(const Insect& insect, bool left, const std::string& mesh_uri) {
-  const Appendage& part = left ? insect.left : insect.right;
+  const Appendage part = left ? mirrored(insect.wings.left.plate) : insect.wings.right.plate;
   const std::string side = left ? "left" : "right";
   const double sign = left ? -1.0 : 1.0;
   const Eigen::Vector3d here = Eigen::Vector3d::Zero();
@@ -119,10 +119,10 @@ void writeMeshes(const Insect& insect, const std::string& directory) {
   const std::filesystem::path folder(directory);
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  writeFile(folder / "right_wing.stl", stlBytes(wingMesh(insect.planform, false)));
+  writeFile(folder / "right_wing.stl", stlBytes(wingMesh(insect.wings.right.planform, false)));
   if (insect.bare_wing) return;
   const Eigen::Vector3d here = Eigen::Vector3d::Zero();
-  writeFile(folder / "left_wing.stl", stlBytes(wingMesh(insect.planform, true)));
+  writeFile(folder / "left_wing.stl", stlBytes(wingMesh(insect.wings.left.planform, true)));
   writeFile(folder / "thorax.stl",
             stlBytes(ellipsoidMesh(here, insect.body_length, insect.body_width)));
   writeFile(

@@ -22,7 +22,7 @@ float packed(const std_msgs::ColorRGBA& colour) {
 
 }  // namespace
 
-sensor_msgs::PointCloud2 vortexCloud(const std::vector<VortexPoint>& points, const Insect& insect,
+sensor_msgs::PointCloud2 vortexCloud(const PerWing<std::vector<VortexPoint>>& points, const Insect& insect,
                                      const JointAngles& angles, const ros::Time& stamp) {
   static const char* const kFields[] = {"x", "y", "z", "rgb", "q", "omega_y"};
   sensor_msgs::PointCloud2 cloud;
@@ -36,22 +36,27 @@ sensor_msgs::PointCloud2 vortexCloud(const std::vector<VortexPoint>& points, con
     field.count = 1;
     cloud.fields.push_back(field);
   }
-  const std::size_t images = insect.bare_wing ? 1 : 2;
+  const Sides sides{insect.bare_wing ? 1U : 2U};
+  std::size_t count = 0;
+  float largest = 0.0f;
+  for (Side side : sides) {
+    count += points[side].size();
+    for (const VortexPoint& p : points[side]) largest = std::max(largest, std::abs(p.omega_y));
+  }
   cloud.height = 1;
-  cloud.width = static_cast<std::uint32_t>(images * points.size());
+  cloud.width = static_cast<std::uint32_t>(count);
   cloud.point_step = 24;
   cloud.row_step = cloud.point_step * cloud.width;
   cloud.is_dense = true;
   cloud.data.resize(cloud.row_step);
 
-  float largest = 0.0f;
-  for (const VortexPoint& p : points) largest = std::max(largest, std::abs(p.omega_y));
-  const Eigen::Matrix3d Q = wingAttitude(insect.beta, angles);
   std::uint8_t* out = cloud.data.data();
-  for (std::size_t image = 0; image < images; ++image) {
-    for (const VortexPoint& p : points) {
-      Eigen::Vector3d r = insect.right.mu + Q * Eigen::Vector3d(p.x, p.y, p.z);  // body axes
-      if (image == 1) r.y() = -r.y();
+  for (Side side : sides) {
+    // In the mirror the left wing is a right one.
+    const Eigen::Matrix3d Q = wingAttitude(Side::kRight, insect.beta, angles.wings[side]);
+    for (const VortexPoint& p : points[side]) {
+      Eigen::Vector3d r = insect.wings[side].plate.mu + Q * Eigen::Vector3d(p.x, p.y, p.z);  // body axes
+      if (side == Side::kLeft) r.y() = -r.y();
       const Eigen::Vector3f f = (frdToFlu() * r).cast<float>();
       const float share = largest > 0.0f ? std::abs(p.omega_y) / largest : 0.0f;
       const float shade = std::copysign(std::sqrt(share), p.omega_y);

@@ -4,9 +4,10 @@
 
 namespace monarch_flight {
 
-WingPitchSolver::WingPitchSolver(const Insect& insect, double gravity, const Newmark& newmark)
-    : insect_(insect), gravity_(gravity), newmark_(newmark) {
-  if (!(insect.right.J(1, 1) > 0.0)) {
+WingPitchSolver::WingPitchSolver(Side side, const Insect& insect, double gravity,
+                                 const Newmark& newmark)
+    : side_(side), insect_(insect), gravity_(gravity), newmark_(newmark) {
+  if (!(wing().plate.J(1, 1) > 0.0)) {
     throw std::invalid_argument("the wing's moment of inertia J_yy must be positive");
   }
 }
@@ -14,30 +15,30 @@ WingPitchSolver::WingPitchSolver(const Insect& insect, double gravity, const New
 double WingPitchSolver::momentWithoutSpring(const BodyState& body, JointAngles angles,
                                             const Loads& loads) const {
   // Everything but J_yy theta'': the wing's motion with theta'' = 0.
-  angles.theta.qdd = 0.0;
-  const WingMotion motion = rightWingMotion(insect_, body, angles);
-  const Appendage& wing = insect_.right;
+  angles.wings[side_].theta.qdd = 0.0;
+  const WingMotion motion = wingMotion(side_, insect_, body, angles);
+  const Appendage& plate = wing().plate;
   const Eigen::Vector3d g_W = gravity_ * motion.R_IW.row(2).transpose();
-  const Eigen::Vector3d moment = loads.moment() - wing.m * wing.nu.cross(motion.a_W - g_W) -
-                                 wing.J * motion.alpha_W -
-                                 motion.omega_W.cross(wing.J * motion.omega_W);
+  const Eigen::Vector3d moment = loads.moment() - plate.m * plate.nu.cross(motion.a_W - g_W) -
+                                 plate.J * motion.alpha_W -
+                                 motion.omega_W.cross(plate.J * motion.omega_W);
   return moment.y();
 }
 
 double WingPitchSolver::acceleration(const BodyState& body, const JointAngles& angles,
                                      const Loads& loads, double rest_angle) const {
-  const double spring = -insect_.kappa * (angles.theta.q - (insect_.theta_0 + rest_angle));
-  return (momentWithoutSpring(body, angles, loads) + spring) / insect_.right.J(1, 1);
+  const double spring = -wing().kappa * (angles.wings[side_].theta.q - (wing().theta_0 + rest_angle));
+  return (momentWithoutSpring(body, angles, loads) + spring) / wing().plate.J(1, 1);
 }
 
 Coordinate WingPitchSolver::step(const Coordinate& n, const BodyState& body,
                                  const JointAngles& angles, const Loads& loads,
                                  double rest_angle) const {
   const double unaccelerated = newmark_.advance(n, 0.0).q;
-  const double spring = -insect_.kappa * (unaccelerated - (insect_.theta_0 + rest_angle));
-  const double stiffness = insect_.kappa * newmark_.beta * newmark_.dt * newmark_.dt;
+  const double spring = -wing().kappa * (unaccelerated - (wing().theta_0 + rest_angle));
+  const double stiffness = wing().kappa * newmark_.beta * newmark_.dt * newmark_.dt;
   return newmark_.advance(
-      n, (momentWithoutSpring(body, angles, loads) + spring) / (insect_.right.J(1, 1) + stiffness));
+      n, (momentWithoutSpring(body, angles, loads) + spring) / (wing().plate.J(1, 1) + stiffness));
 }
 
 }  // namespace monarch_flight

@@ -20,7 +20,7 @@ double advance(Accelerator& accelerator, CouplingVector& d, const CouplingVector
 
 /// Iterates d = A d + b from `start` with a strategy; number of evaluations until |r| < tolerance,
 /// or `limit`.
-int evaluations(Accelerator& accelerator, const Eigen::Matrix4d& A, const Eigen::Vector4d& b,
+int evaluations(Accelerator& accelerator, const CoordinateMatrix& A, const CouplingVector& b,
                 double tolerance, int limit, CouplingVector* solution = nullptr,
                 const CouplingVector& start = CouplingVector::Zero()) {
   CouplingVector d = start;
@@ -39,13 +39,29 @@ int evaluations(Accelerator& accelerator, const Eigen::Matrix4d& A, const Eigen:
   return limit;
 }
 
-/// One coordinate is free, the others are prescribed: their residual is 0.
-Eigen::Matrix4d scalar(double value) {
-  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+/// Four coordinates are free, those of a symmetric flight; the others are prescribed: their
+/// residual is 0.
+constexpr FreeCoordinate kFour[4] = {kX, kZ, kPitch, kThetaR};
+CoordinateMatrix ofFour(const Eigen::Matrix4d& A) {
+  CoordinateMatrix all = CoordinateMatrix::Zero();
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) all(kFour[i], kFour[j]) = A(i, j);
+  }
+  return all;
+}
+CouplingVector ofFour(const Eigen::Vector4d& b) {
+  CouplingVector all = CouplingVector::Zero();
+  for (int i = 0; i < 4; ++i) all(kFour[i]) = b(i);
+  return all;
+}
+
+/// One coordinate is free.
+CoordinateMatrix scalar(double value) {
+  CoordinateMatrix A = CoordinateMatrix::Zero();
   A(0, 0) = value;
   return A;
 }
-const Eigen::Vector4d kScalarForce = Eigen::Vector4d::UnitX();
+const CouplingVector kScalarForce = CouplingVector::Unit(0);
 
 TEST(ConstantRelaxation, ContractsAsItsTheorySays) {
   // Error after k steps: (1 + omega (lambda - 1))^k.
@@ -80,20 +96,21 @@ TEST(Aitken, ConvergesWhereConstantRelaxationDiverges) {
 }
 
 TEST(Aitken, ConvergesForSeveralCoordinates) {
-  Eigen::Matrix4d A;  // eigenvalues -1.6, -0.9, -0.4, -0.1, not normal
-  A << -1.6, 0.3, 0.0, 0.5, 0.0, -0.9, 0.2, 0.0, 0.0, 0.0, -0.4, 0.1, 0.0, 0.0, 0.0, -0.1;
-  const Eigen::Vector4d b(1.0, -2.0, 0.5, 3.0);
+  Eigen::Matrix4d four;  // eigenvalues -1.6, -0.9, -0.4, -0.1, not normal
+  four << -1.6, 0.3, 0.0, 0.5, 0.0, -0.9, 0.2, 0.0, 0.0, 0.0, -0.4, 0.1, 0.0, 0.0, 0.0, -0.1;
+  const CoordinateMatrix A = ofFour(four);
+  const CouplingVector b = ofFour(Eigen::Vector4d(1.0, -2.0, 0.5, 3.0));
   AitkenRelaxation aitken(0.5, 0.05, 1.5);
   ConstantRelaxation plain(1.0);
   CouplingVector solution;
   EXPECT_LT(evaluations(aitken, A, b, 1e-10, 60, &solution), 40);
-  EXPECT_LT((solution - (Eigen::Matrix4d::Identity() - A).inverse() * b).norm(), 1e-9);
+  EXPECT_LT((solution - (CoordinateMatrix::Identity() - A).inverse() * b).norm(), 1e-9);
   EXPECT_EQ(evaluations(plain, A, b, 1e-10, 60), 60);
 }
 
 TEST(Aitken, FirstFactorAndResetTakeTheInitialOne) {
   AitkenRelaxation accelerator(0.3, 0.05, 1.5);
-  CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::UnitX();
+  CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::Unit(0);
   EXPECT_EQ(advance(accelerator, d, residual), 0.3);
   residual(0) = 0.5;
   EXPECT_DOUBLE_EQ(advance(accelerator, d, residual), 0.6);
@@ -102,7 +119,7 @@ TEST(Aitken, FirstFactorAndResetTakeTheInitialOne) {
 }
 
 TEST(Aitken, StaysWithinItsBounds) {
-  CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::UnitX();
+  CouplingVector d = CouplingVector::Zero(), residual = CouplingVector::Unit(0);
   AitkenRelaxation high(0.5, 0.05, 1.5);
   advance(high, d, residual);
   residual(0) = 0.99;  // would be 50
@@ -128,19 +145,19 @@ TEST(Aitken, KeepsItsFactorWhenTheResidualDoesNotChange) {
 }
 
 /// Not normal; eigenvalues -10.8, -1.6, -0.9, -0.4: an added mass ten times the structure's.
-Eigen::Matrix4d heavyAir() {
+CoordinateMatrix heavyAir() {
   Eigen::Matrix4d A;
   A << -10.8, 0.3, 0.0, 0.5, 0.0, -1.6, 0.2, 0.0, 0.0, 0.0, -0.9, 0.1, 0.0, 0.0, 0.0, -0.4;
-  return A;
+  return ofFour(A);
 }
-const Eigen::Vector4d kForce(1.0, -2.0, 0.5, 3.0);
+const CouplingVector kForce = ofFour(Eigen::Vector4d(1.0, -2.0, 0.5, 3.0));
 
 TEST(IqnIls, SolvesALinearProblemOfFourUnknownsInSix) {
   // The start, one relaxed trial, then each difference spans one more direction.
   IqnIls accelerator(0.1, 0);
   CouplingVector solution;
   EXPECT_LE(evaluations(accelerator, heavyAir(), kForce, 1e-10, 60, &solution), 6);
-  EXPECT_LT((solution - (Eigen::Matrix4d::Identity() - heavyAir()).inverse() * kForce).norm(),
+  EXPECT_LT((solution - (CoordinateMatrix::Identity() - heavyAir()).inverse() * kForce).norm(),
             1e-9);
 }
 
@@ -149,7 +166,7 @@ TEST(IqnIls, ReuseMakesTheNextStepImmediate) {
   for (IqnIls* accelerator : {&reusing, &fresh}) {
     evaluations(*accelerator, heavyAir(), kForce, 1e-10, 60);
   }
-  const Eigen::Vector4d next(0.7, -1.0, 1.5, -3.0);
+  const CouplingVector next = ofFour(Eigen::Vector4d(0.7, -1.0, 1.5, -3.0));
   EXPECT_EQ(evaluations(reusing, heavyAir(), next, 1e-9, 60), 2);
   EXPECT_GT(evaluations(fresh, heavyAir(), next, 1e-9, 60), 4);
   reusing.forget();
@@ -159,7 +176,7 @@ TEST(IqnIls, ReuseMakesTheNextStepImmediate) {
 TEST(IqnIls, OldDifferencesGo) {
   IqnIls accelerator(0.1, 1);
   evaluations(accelerator, heavyAir(), kForce, 1e-10, 60);
-  const CouplingVector solved = (Eigen::Matrix4d::Identity() - heavyAir()).inverse() * kForce;
+  const CouplingVector solved = (CoordinateMatrix::Identity() - heavyAir()).inverse() * kForce;
   // Two steps that begin at their solution teach nothing and outlive the memory.
   EXPECT_EQ(evaluations(accelerator, heavyAir(), kForce, 1e-9, 60, nullptr, solved), 1);
   EXPECT_EQ(evaluations(accelerator, heavyAir(), kForce, 1e-9, 60, nullptr, solved), 1);
@@ -178,7 +195,7 @@ TEST(IqnIls, PrescribedCoordinatesAndRepeatedResidualsDoNoHarm) {
 }
 
 TEST(Settings, NameTheStrategy) {
-  const StepModel model(testing::coupledModel({true, true, true, true}, 1), 0.02);
+  const StepModel model(testing::coupledModel({kX, kZ, kPitch, kThetaR}, 1), 0.02);
   const auto names = [&](Relaxation relaxation, auto* type) {
     CouplingSettings settings;
     settings.relaxation = relaxation;

@@ -14,7 +14,7 @@ using testing::dimensionlessDistance;
 using testing::Federation;
 using testing::monarchAir;
 
-constexpr FreeCoordinates kAllFree = {true, true, true, true};
+const FreeCoordinates kAllFree = {kX, kZ, kPitch, kThetaR};
 
 class Coordination : public ::testing::Test {
  protected:
@@ -59,9 +59,13 @@ TEST_F(Coordination, CommitsTheInterfaceOfTheLastLoads) {
       const CommittedStep& step = f_.sink.steps[r.key.step];
       EXPECT_EQ(r.key.iteration, last->key.iteration);
       EXPECT_TRUE(same(r.interface, step.interface));
-      EXPECT_TRUE(same(last->interface.theta_R, step.interface.theta_R));
+      for (Side side : kSides)
+        EXPECT_TRUE(same(last->interface.theta[side], step.interface.theta[side]));
       EXPECT_TRUE(p == f_.wing.get() || same(last->interface, step.interface));
-      EXPECT_TRUE(p == f_.fluid.get() || last->loads.moment() == step.loads.moment());
+      for (Side side : kSides) {
+        EXPECT_TRUE(p == f_.fluid.get() ||
+                    last->loads[side].moment() == step.loads[side].moment());
+      }
       ++committed;
     }
   }
@@ -74,7 +78,9 @@ TEST_F(Coordination, RunsAreRepeatableBitForBit) {
   ASSERT_TRUE(again.run().complete);
   for (std::size_t i = 0; i < f_.sink.steps.size(); ++i) {
     EXPECT_TRUE(same(f_.sink.steps[i].interface, again.sink.steps[i].interface));
-    EXPECT_EQ(f_.sink.steps[i].loads.force(), again.sink.steps[i].loads.force());
+    for (Side side : kSides) {
+      EXPECT_EQ(f_.sink.steps[i].loads[side].force(), again.sink.steps[i].loads[side].force());
+    }
   }
 }
 
@@ -85,7 +91,7 @@ TEST_F(Coordination, PrescribedStartTakesOneEvaluationAStep) {
     const CommittedStep& step = f_.sink.steps[i];
     EXPECT_EQ(step.iterations.size(), 1u);
     EXPECT_TRUE(same(step.interface, f_.prescribed(f_.model.time(i))));
-    EXPECT_GT(step.loads.force().norm(), 0.0);
+    EXPECT_GT(step.loads.right.force().norm(), 0.0);
   }
   EXPECT_GT(f_.sink.steps[11].iterations.size(), 1u);
 }
@@ -103,7 +109,7 @@ TEST_F(Coordination, NothingFreeFollowsTheMotion) {
 }
 
 TEST_F(Coordination, OnlyWhatIsFreeMoves) {
-  f_.model.free = {false, true, false, true};
+  f_.model.free = {kZ, kThetaR};
   Federation partly(f_.model, f_.settings, monarchAir(1.0));
   ASSERT_TRUE(partly.run().complete);
   const CommittedStep& last = partly.sink.steps.back();
@@ -111,10 +117,10 @@ TEST_F(Coordination, OnlyWhatIsFreeMoves) {
   EXPECT_EQ(last.interface.body.x.x(), prescribed.body.x.x());
   EXPECT_EQ(last.interface.body.R_IB, prescribed.body.R_IB);
   EXPECT_NE(last.interface.body.x.z(), prescribed.body.x.z());
-  EXPECT_NE(last.interface.theta_R.q, prescribed.theta_R.q);
+  EXPECT_NE(last.interface.theta.right.q, prescribed.theta.right.q);
   for (const IterationRecord& record : last.iterations) {
-    EXPECT_EQ(record.residual[0], 0.0);
-    EXPECT_EQ(record.residual[2], 0.0);
+    EXPECT_EQ(record.residual[kX], 0.0);
+    EXPECT_EQ(record.residual[kPitch], 0.0);
   }
 }
 
@@ -123,10 +129,12 @@ TEST_F(Coordination, ForceIsThatOfBothWingsInInertialAxes) {
   const CommittedStep& step = f_.sink.steps.back();
   const Eigen::Matrix3d R_IB = step.interface.body.R_IB;
   const Eigen::Vector3d right =
-      wingAttitude(f_.model.insect.beta, step.angles) * step.loads.force();
+      wingAttitude(Side::kRight, f_.model.insect.beta, step.angles.wings.right) *
+      step.loads.right.force();
   const Eigen::Vector3d both = R_IB * Eigen::Vector3d(2.0 * right.x(), 0.0, 2.0 * right.z());
   EXPECT_LT((step.force_I - both).norm(), 1e-14 * both.norm());
-  EXPECT_EQ(step.angles.theta.q, step.interface.theta_R.q);
+  for (Side side : kSides)
+    EXPECT_EQ(step.angles.wings[side].theta.q, step.interface.theta[side].q);
 }
 
 TEST_F(Coordination, StepsComeInOrderAndTheEndOnce) {
@@ -141,8 +149,10 @@ TEST_F(Coordination, StepsComeInOrderAndTheEndOnce) {
   for (std::uint32_t i = 0; i <= 30; ++i) {
     const CommittedStep& step = f.sink.steps[i];
     EXPECT_EQ(step.step, i);
-    EXPECT_EQ(step.surface.facets.size(), i > 0 && i % 5 == 0 ? 1u : 0u);
-    EXPECT_EQ(step.vortices.size(), i > 0 && i % 10 == 0 ? 1u : 0u);
+    for (Side side : kSides) {
+      EXPECT_EQ(step.surface[side].facets.size(), i > 0 && i % 5 == 0 ? 1u : 0u);
+      EXPECT_EQ(step.vortices[side].size(), i > 0 && i % 10 == 0 ? 1u : 0u);
+    }
   }
   for (const testing::Recorder* p : {f.fluid.get(), f.flight.get(), f.wing.get()}) {
     EXPECT_EQ(p->count(Phase::kStart), 1);
@@ -194,7 +204,8 @@ TEST_F(Coordination, AnUnconvergedStepEndsTheRunWithADiagnosis) {
 
 TEST_F(Coordination, NonFiniteAnswersEndTheRunWithTheirPlace) {
   f_.wing->change = [](Reply& reply) {
-    if (reply.key.step == 4) reply.interface.theta_R.q = std::numeric_limits<double>::quiet_NaN();
+    if (reply.key.step == 4)
+      reply.interface.theta.right.q = std::numeric_limits<double>::quiet_NaN();
   };
   const CoupledOutcome outcome = f_.run();
   EXPECT_FALSE(outcome.complete);

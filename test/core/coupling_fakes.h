@@ -100,9 +100,8 @@ class SineFlapping : public PrescribedMotion {
     state.body.x = Eigen::Vector3d(1.0 * t, 0.0, -0.5 * t);
     state.body.v = Eigen::Vector3d(1.0, 0.0, -0.5);
     state.body = withPitch(state.body, {0.3, 0.0, 0.0});
-    state.angles.phi = wave(0.1, 0.9, w, 1.4, t);
-    state.angles.psi = wave(0.0, 0.05, 2.0 * w, 0.2, t);
-    state.angles.theta = wave(0.0, 0.5, w, 0.1, t);
+    state.angles.wings = both(WingAngles{wave(0.1, 0.9, w, 1.4, t), wave(0.0, 0.05, 2.0 * w, 0.2, t),
+                                         wave(0.0, 0.5, w, 0.1, t)});
     state.angles.theta_A = wave(0.3, 0.2, w, 2.0, t);
     return state;
   }
@@ -174,7 +173,7 @@ struct Federation {
       : model(model_in), settings(settings_in), motion(std::move(motion_in)) {
     auto owned = std::make_unique<LinearAir>(air_in);
     air = owned.get();
-    fluid_solver = std::make_unique<FluidParticipant>(model, std::move(owned));
+    fluid_solver = std::make_unique<FluidParticipant>(Side::kRight, model, std::move(owned));
     flight_solver = std::make_unique<FlightParticipant>(model);
     wing_solver = std::make_unique<WingParticipant>(model);
     guidance_solver = std::make_unique<GuidanceParticipant>(
@@ -192,7 +191,7 @@ struct Federation {
     return Coordinator(model, settings, participants(), 7).run({&sink}, control);
   }
   Participants participants() {
-    return {fluid.get(), flight.get(), wing.get(), guidance.get()};
+    return {fluid.get(), flight.get(), wing.get(), guidance.get(), nullptr};
   }
   /// Everything as guidance prescribes it.
   Interface prescribed(double t) const { return motion->at(t).interface(); }
@@ -210,7 +209,9 @@ struct Federation {
 /// Of two interfaces, positions over `length` [m], angles in rad.
 inline double dimensionlessDistance(const Interface& a, const Interface& b, double length) {
   return std::max({(a.body.x - b.body.x).cwiseAbs().maxCoeff() / length,
-                   std::abs(a.body.pitch.q - b.body.pitch.q), std::abs(a.theta_R.q - b.theta_R.q)});
+                   std::abs(a.body.pitch.q - b.body.pitch.q),
+                   std::abs(a.theta.right.q - b.theta.right.q),
+                   std::abs(a.theta.left.q - b.theta.left.q)});
 }
 
 }  // namespace testing

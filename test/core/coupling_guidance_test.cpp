@@ -10,7 +10,7 @@ namespace {
 using testing::Federation;
 using testing::monarchAir;
 
-constexpr FreeCoordinates kAllFree = {true, true, true, true};
+const FreeCoordinates kAllFree = {kX, kZ, kPitch, kThetaR};
 
 /// Adds to the flapping what it has counted: answers differ from call to call.
 class Counting : public Guidance {
@@ -24,7 +24,7 @@ class Counting : public Guidance {
     count += 1.0;
     last = input;
     PrescribedState state = motion_.at(input.t);
-    state.angles.phi.q += 1e-7 * count;
+    for (Side side : kSides) state.angles.wings[side].phi.q += 1e-7 * count;
     return state;
   }
   void memory(StateVisitor& state) override { state("count", count); }
@@ -53,7 +53,8 @@ TEST_F(Guided, IsAskedOnceAStepAndHearsOfTheCommittedLevel) {
   EXPECT_EQ(counting_->asked, 30);
   const CommittedStep& before = f_.sink.steps[29];
   EXPECT_TRUE(same(counting_->last.interface, before.interface));
-  EXPECT_EQ(counting_->last.loads.force(), before.loads.force());
+  for (Side side : kSides)
+    EXPECT_EQ(counting_->last.loads[side].force(), before.loads[side].force());
   EXPECT_EQ(prescribedValues(counting_->last.prescribed), prescribedValues(before.guided));
   EXPECT_EQ(counting_->last.t, f_.model.time(30));
   EXPECT_EQ(f_.guidance->count(Phase::kIterate), 30);
@@ -69,8 +70,10 @@ TEST_F(Guided, WhatItPrescribesIsInEveryRequest) {
       ASSERT_EQ(prescribedValues(request.prescribed), prescribedValues(step.guided));
     }
   }
-  EXPECT_EQ(f_.sink.steps[20].angles.phi.q,
-            testing::SineFlapping().at(f_.model.time(20)).angles.phi.q + 1e-7 * 20);
+  for (Side side : kSides) {
+    EXPECT_EQ(f_.sink.steps[20].angles.wings[side].phi.q,
+              testing::SineFlapping().at(f_.model.time(20)).angles.wings[side].phi.q + 1e-7 * 20);
+  }
 }
 
 TEST_F(Guided, IsNotAskedAgainByAStepThatIsTriedAgain) {
@@ -108,8 +111,8 @@ TEST_F(Guided, ItsMemoryOfTheCommittedLevelIsShownAlsoWithinAStep) {
   StateSnapshot within = kept(1);
   EXPECT_EQ(counting_->count, 2.0);
   EXPECT_EQ(ask(Phase::kCommit, 2).error, "");
-  EXPECT_EQ(ask(Phase::kIterate, 3).prescribed->angles.phi.q,
-            testing::SineFlapping().at(f_.model.time(3)).angles.phi.q + 3e-7);
+  EXPECT_EQ(ask(Phase::kIterate, 3).prescribed->angles.wings.right.phi.q,
+            testing::SineFlapping().at(f_.model.time(3)).angles.wings.right.phi.q + 3e-7);
   within.putBack([&](StateVisitor& s) { guidance.restore({7, 1, 0, Phase::kRestore}, s); });
   EXPECT_EQ(counting_->count, 1.0);
   EXPECT_EQ(prescribedValues(*ask(Phase::kIterate, 2).prescribed),

@@ -7,15 +7,17 @@
 namespace monarch_flight {
 namespace {
 
+using testing::both;
 using testing::dimensionlessDistance;
 using testing::Federation;
 using testing::LinearAir;
 using testing::monarchAir;
 
-constexpr FreeCoordinates kAllFree = {true, true, true, true};
+const FreeCoordinates kAllFree = {kX, kZ, kPitch, kThetaR};
 
 /// All equations of a step at once: Newton on the generalised forces of the 15-velocity system,
-/// rows x, z, pitch and right hinge. Shares neither solvers nor loop with the coordinator.
+/// rows x, z, pitch and right hinge; the left one does the same. Shares neither solvers nor loop
+/// with the coordinator.
 class Monolith {
  public:
   Monolith(const CoupledModel& model, const LinearAir& air)
@@ -23,8 +25,8 @@ class Monolith {
 
   Interface step(const Interface& n, double t_n, double t) const {
     const Vector6d velocity_n = LinearAir::velocity(
-        rightWingMotion(model_.insect, n.body, motion_.at(t_n).anglesWith(n.theta_R)));
-    Eigen::Vector4d a(n.body.a.x(), n.body.a.z(), n.body.pitch.qdd, n.theta_R.qdd);
+        wingMotion(Side::kRight, model_.insect, n.body, motion_.at(t_n).anglesWith(n.theta)));
+    Eigen::Vector4d a(n.body.a.x(), n.body.a.z(), n.body.pitch.qdd, n.theta.right.qdd);
     for (int newton = 0; newton < 6; ++newton) {
       const Eigen::Vector4d r = residual(n, velocity_n, t, a);
       Eigen::Matrix4d jacobian;
@@ -42,19 +44,25 @@ class Monolith {
  private:
   Interface at(const Interface& n, double t, const Eigen::Vector4d& a) const {
     Interface next = motion_.at(t).interface();
-    next.body = advancedBody(n.body, next.body, model_.free, model_.newmark, a.head<3>());
-    next.theta_R = model_.newmark.advance(n.theta_R, a(3));
+    BodyVector body = BodyVector::Zero();
+    body(kX) = a(0);
+    body(kZ) = a(1);
+    body(kPitch) = a(2);
+    next.body = advancedBody(n.body, next.body, model_.free, model_.newmark, body);
+    next.theta = both(model_.newmark.advance(n.theta.right, a(3)));
     return next;
   }
   Eigen::Vector4d residual(const Interface& n, const Vector6d& velocity_n, double t,
                            const Eigen::Vector4d& a) const {
     const Interface next = at(n, t, a);
-    const JointAngles angles = motion_.at(t).anglesWith(next.theta_R);
-    const Loads loads = air_.law(velocity_n, rightWingMotion(model_.insect, next.body, angles));
+    const JointAngles angles = motion_.at(t).anglesWith(next.theta);
+    const Loads loads =
+        air_.law(velocity_n, wingMotion(Side::kRight, model_.insect, next.body, angles));
     const InsectMotion motion = insectMotion(model_.insect.beta, next.body, angles);
     Vector15d rest = dynamics_.inertialForce(motion) - dynamics_.gravityForce(motion) -
-                     dynamics_.airForce(motion, loads);
-    rest(7) += model_.insect.kappa * (next.theta_R.q - model_.insect.theta_0);
+                     dynamics_.airForce(motion, both(loads));
+    const Wing& wing = model_.insect.wings.right;
+    rest(7) += wing.kappa * (next.theta.right.q - wing.theta_0);
     return {rest(0), rest(2), rest(4), rest(7)};
   }
   CoupledModel model_;
@@ -100,7 +108,7 @@ TEST_P(AddedMass, FlightIsTheMonolithicOne) {
   }
   // It has flown: the coordinates are far from the prescribed ones.
   const Interface prescribed = f.prescribed(f.model.time(200));
-  EXPECT_GT(std::abs(exact.theta_R.q - prescribed.theta_R.q), 0.05);
+  EXPECT_GT(std::abs(exact.theta.right.q - prescribed.theta.right.q), 0.05);
   EXPECT_GT(std::abs(exact.body.pitch.q - prescribed.body.pitch.q), 0.005);
 }
 

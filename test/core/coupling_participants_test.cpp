@@ -11,7 +11,7 @@ namespace {
 
 using testing::Federation;
 
-constexpr FreeCoordinates kAllFree = {true, true, true, true};
+const FreeCoordinates kAllFree = {kX, kZ, kPitch, kThetaR};
 constexpr std::uint64_t kRun = 7;
 
 Request request(const CoupledModel& model, Phase phase, std::uint32_t step,
@@ -24,8 +24,9 @@ Request request(const CoupledModel& model, Phase phase, std::uint32_t step,
   return r;
 }
 
-Loads someLoads() {
-  return {{1e-4, 0.0, -5e-3}, {1e-5, 2e-5, 0.0}, {1e-4, 2e-5, 0.0}, {0.0, 0.0, 1e-6}};
+PerWing<Loads> someLoads() {
+  return testing::both(
+      Loads{{1e-4, 0.0, -5e-3}, {1e-5, 2e-5, 0.0}, {1e-4, 2e-5, 0.0}, {0.0, 0.0, 1e-6}});
 }
 
 class SolverParticipants : public ::testing::Test {
@@ -68,7 +69,7 @@ TEST_F(SolverParticipants, IterationsLeaveNoTrace) {
   startAll();
   for (Participant* p : all()) {
     Request r = make(Phase::kIterate, 1, 0), other = make(Phase::kIterate, 1, 1);
-    other.interface.theta_R.qdd += 100.0;
+    for (Side side : kSides) other.interface.theta[side].qdd += 100.0;
     other.interface.body.a.z() += 3.0;
     if (p != f_.fluid_solver.get()) r.loads = other.loads = someLoads();
     const Reply first = p->exchange(r);
@@ -87,17 +88,18 @@ TEST_F(SolverParticipants, AnswersAreTheSolversOwn) {
   r.loads = someLoads();
   const CoupledModel& m = f_.model;
   const Interface start = f_.prescribed(m.time(0));
-  const JointAngles angles = r.prescribed.anglesWith(r.interface.theta_R);
+  const JointAngles angles = r.prescribed.anglesWith(r.interface.theta);
   const FlightSolver flight(m.insect, m.gravity, m.free, m.newmark);
   const BodyState body =
       flight.step(start.body, r.interface.body, r.interface.body, angles, r.loads);
   const Reply flown = f_.flight_solver->exchange(r);
-  EXPECT_TRUE(same(flown.interface, Interface{body, r.interface.theta_R}));
-  const WingPitchSolver wing(m.insect, m.gravity, m.newmark);
+  EXPECT_TRUE(same(flown.interface, Interface{body, r.interface.theta}));
+  const WingPitchSolver wing(Side::kRight, m.insect, m.gravity, m.newmark);
   const Reply turned = f_.wing_solver->exchange(r);
-  EXPECT_TRUE(
-      same(turned.interface.theta_R, wing.step(start.theta_R, r.interface.body, angles, r.loads)));
-  EXPECT_TRUE(same(Interface{turned.interface.body, r.interface.theta_R}, r.interface));
+  const Coordinate theta =
+      wing.step(start.theta.right, r.interface.body, angles, r.loads.right);
+  for (Side side : kSides) EXPECT_TRUE(same(turned.interface.theta[side], theta));
+  EXPECT_TRUE(same(Interface{turned.interface.body, r.interface.theta}, r.interface));
 }
 
 TEST_F(SolverParticipants, CommitKeepsTheAnsweredGuess) {
@@ -129,7 +131,7 @@ TEST_F(SolverParticipants, CommitOfAnotherIterationOrInterfaceIsRefused) {
     expectRefused(*p, make(Phase::kCommit, 1, 2), "not the ITERATE of this iteration");
     Request other = make(Phase::kCommit, 1, 3);
     other.interface.body.x.x() += 1e-15;
-    other.interface.theta_R.q += 1e-15;
+    for (Side side : kSides) other.interface.theta[side].q += 1e-15;
     expectRefused(*p, other, "not the one that was answered");
     // The refusals have changed nothing.
     EXPECT_EQ(p->exchange(make(Phase::kCommit, 1, 3)).error, "");
@@ -173,12 +175,14 @@ TEST_F(SolverParticipants, NonFiniteRequestsAreRefusedByName) {
       "fluid, step 1, iteration 3, ITERATE: ", "flight, step 1, iteration 3, ITERATE: ",
       "wing, step 1, iteration 3, ITERATE: "};
   for (std::size_t i = 0; i < 3; ++i) {
-    Request r = make(Phase::kIterate, 1, 3);
-    r.interface.theta_R.qdd = std::numeric_limits<double>::quiet_NaN();
-    expectRefused(*all()[i], r, std::string(names[i]) + "non-finite number in the request");
-    r = make(Phase::kIterate, 1, 3);
-    r.loads.moment_friction.x() = std::numeric_limits<double>::infinity();
-    expectRefused(*all()[i], r, "non-finite number in the request");
+    for (Side side : kSides) {
+      Request r = make(Phase::kIterate, 1, 3);
+      r.interface.theta[side].qdd = std::numeric_limits<double>::quiet_NaN();
+      expectRefused(*all()[i], r, std::string(names[i]) + "non-finite number in the request");
+      r = make(Phase::kIterate, 1, 3);
+      r.loads[side].moment_friction.x() = std::numeric_limits<double>::infinity();
+      expectRefused(*all()[i], r, "non-finite number in the request");
+    }
   }
 }
 
@@ -210,7 +214,7 @@ TEST_F(SolverParticipants, MotionThatDoesNotReachIsReported) {
 
 TEST_F(SolverParticipants, FluidTellsOfItselfAtTheStartAndShowsFieldsOnDemand) {
   auto air = std::make_unique<testing::LinearAir>(testing::monarchAir(1.0));
-  FluidParticipant fluid(f_.model, std::move(air));
+  FluidParticipant fluid(Side::kRight, f_.model, std::move(air));
   const Reply start = fluid.exchange(make(Phase::kStart, 0, 0));
   EXPECT_EQ(start.report.cells, 42);
   EXPECT_EQ(start.report.added_mass, f_.air->addedMass());
@@ -231,8 +235,10 @@ TEST_F(SolverParticipants, FluidTellsOfItselfAtTheStartAndShowsFieldsOnDemand) {
 TEST(ParticipantOfAPrescribedWing, NeedsNoInertia) {
   CoupledModel model = testing::coupledModel({}, 5);
   model.insect.bare_wing = true;
-  model.insect.right.m = 0.0;
-  model.insect.right.J.setZero();
+  for (Side side : kSides) {
+    model.insect.wings[side].plate.m = 0.0;
+    model.insect.wings[side].plate.J.setZero();
+  }
   WingParticipant wing(model);
   FlightParticipant flight(model);
   for (Participant* p : std::vector<Participant*>{&wing, &flight}) {
@@ -246,6 +252,7 @@ TEST(Names, OfRolesAndPhases) {
   EXPECT_STREQ(roleName(Role::kFluid), "fluid");
   EXPECT_STREQ(roleName(Role::kFlight), "flight");
   EXPECT_STREQ(roleName(Role::kWing), "wing");
+  EXPECT_STREQ(roleName(Role::kFluidLeft), "fluid_left");
   EXPECT_STREQ(phaseName(Phase::kStart), "START");
   EXPECT_STREQ(phaseName(Phase::kIterate), "ITERATE");
   EXPECT_STREQ(phaseName(Phase::kCommit), "COMMIT");

@@ -11,10 +11,11 @@
 namespace monarch_flight {
 namespace {
 
+using testing::both;
 using testing::Federation;
 using testing::monarchAir;
 
-constexpr FreeCoordinates kAllFree = {true, true, true, true};
+const FreeCoordinates kAllFree = {kX, kZ, kPitch, kThetaR};
 constexpr std::uint32_t kSteps = 150;
 
 CouplingSettings with(Relaxation relaxation) {
@@ -24,8 +25,7 @@ CouplingSettings with(Relaxation relaxation) {
 }
 
 double distance(const Interface& a, const Interface& b) {
-  return std::max({(a.body.x - b.body.x).cwiseAbs().maxCoeff() / 0.0209,
-                   std::abs(a.body.pitch.q - b.body.pitch.q), std::abs(a.theta_R.q - b.theta_R.q)});
+  return testing::dimensionlessDistance(a, b, 0.0209);
 }
 
 struct Count {
@@ -164,7 +164,7 @@ TEST(Retry, AFailureOfASolverIsTriedOnceMore) {
     ASSERT_TRUE(outcome.complete) << outcome.failure;
     const auto& records = f.sink.steps[15].iterations;
     EXPECT_EQ(records.front().attempt, 1u);
-    EXPECT_TRUE(std::isinf(records.front().residual[3]));
+    EXPECT_TRUE(std::isinf(records.front().residual[kThetaR]));
     EXPECT_EQ(records.back().attempt, 2u);
     EXPECT_LT(records.back().load_residual, 1e-6);
     for (std::size_t k = 0; k < records.size(); ++k) EXPECT_EQ(records[k].iteration, k);
@@ -209,7 +209,10 @@ TEST(Repetition, AStepIsTheSameStepAHundredTimes) {
     Federation again(model, with(Relaxation::kAddedMass), monarchAir(2.0));
     ASSERT_TRUE(again.run().complete);
     ASSERT_TRUE(same(first.sink.steps.back().interface, again.sink.steps.back().interface));
-    ASSERT_EQ(first.sink.steps.back().loads.moment(), again.sink.steps.back().loads.moment());
+    for (Side side : kSides) {
+      ASSERT_EQ(first.sink.steps.back().loads[side].moment(),
+                again.sink.steps.back().loads[side].moment());
+    }
   }
 }
 
@@ -220,9 +223,11 @@ TEST(Balance, WorkOfTheAirIsTheSameOnBothSides) {
   double total = 0.0;
   for (const CommittedStep& step : f.sink.steps) {
     if (step.prescribed) continue;
-    const WingMotion motion = rightWingMotion(model.insect, step.interface.body, step.angles);
-    const double work = model.newmark.dt * (step.loads.force().dot(motion.v_W) +
-                                            step.loads.moment().dot(motion.omega_W));
+    const WingMotion motion =
+        wingMotion(Side::kRight, model.insect, step.interface.body, step.angles);
+    const Loads& loads = step.loads.right;
+    const double work = model.newmark.dt *
+                        (loads.force().dot(motion.v_W) + loads.moment().dot(motion.omega_W));
     EXPECT_NEAR(step.work_fluid, work, 1e-12 * std::abs(work));
     EXPECT_NEAR(step.work_structure, step.work_fluid, 1e-6 * std::abs(work) + 1e-15);
     total += std::abs(work);
@@ -236,30 +241,30 @@ TEST(Balance, AMotionThatTheStructureDoesNotShareShowsInTheWork) {
   const PrescribedState prescribed = testing::SineFlapping().at(0.03);
   const Interface seen = prescribed.interface();
   Interface answered = seen;
-  answered.theta_R.qd += 2.0;
+  for (Side side : kSides) answered.theta[side].qd += 2.0;
   Loads loads;
   loads.moment_pressure = Eigen::Vector3d(0.0, 3e-5, 0.0);
-  const InterfacePower power = balance.power(prescribed, seen, answered, loads);
+  const InterfacePower power = balance.power(prescribed, seen, answered, both(loads));
   EXPECT_NEAR(power.structure - power.fluid, 6e-5, 1e-12);
 }
 
 TEST(Balance, RatioOfOneHingeIsThatOfItsTwoInertias) {
-  CoupledModel model = testing::coupledModel({false, false, false, true}, 1);
+  CoupledModel model = testing::coupledModel({kThetaR}, 1);
   const InterfaceBalance balance(model);
   const PrescribedState prescribed = testing::SineFlapping().at(0.03);
   const Interface level = prescribed.interface();
   Matrix6d M = Matrix6d::Zero();
-  M(4, 4) = 5.0 * model.insect.right.J(1, 1);
-  EXPECT_NEAR(balance.addedMassRatio(prescribed, level, M), 5.0, 1e-12);
+  M(4, 4) = 5.0 * model.insect.wings.right.plate.J(1, 1);
+  EXPECT_NEAR(balance.addedMassRatio(prescribed, level, both(M)), 5.0, 1e-12);
   model.free = {};
-  EXPECT_EQ(InterfaceBalance(model).addedMassRatio(prescribed, level, M), 0.0);
+  EXPECT_EQ(InterfaceBalance(model).addedMassRatio(prescribed, level, both(M)), 0.0);
   // Whole insect, falling: the air that both wings carry along over the mass of everything.
-  model.free = {false, true, false, false};
+  model.free = {kZ};
   M = Matrix6d::Identity();
   const double mass = MultibodyDynamics(model.insect, 9.81)
                           .inertia(insectMotion(model.insect.beta, level.body,
                                                 prescribed.angles))(2, 2);
-  EXPECT_NEAR(InterfaceBalance(model).addedMassRatio(prescribed, level, M), 2.0 / mass, 1e-9 / mass);
+  EXPECT_NEAR(InterfaceBalance(model).addedMassRatio(prescribed, level, both(M)), 2.0 / mass, 1e-9 / mass);
 }
 
 TEST(StepModel, IsTheParticipantsOwnAnswer) {
@@ -273,8 +278,8 @@ TEST(StepModel, IsTheParticipantsOwnAnswer) {
   const CouplingVector d = copy.increments(step.interface);
   EXPECT_LT(distance(copy.interface(d), step.interface), 1e-15);
   const CouplingVector residual = copy.residual(d, step.loads);
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_NEAR(residual(i), step.iterations.back().residual[static_cast<std::size_t>(i)], 1e-15);
+  for (std::size_t i = 0; i < kCoordinates; ++i) {
+    EXPECT_NEAR(residual(static_cast<Eigen::Index>(i)), step.iterations.back().residual[i], 1e-15);
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::publishedMonarch;
 
-constexpr FreeCoordinates kAllFree = {true, true, true, true};
+const FreeCoordinates kAllFree = {kX, kZ, kPitch, kThetaR};
 const Vector3d kRest = Vector3d::Zero();
 
 /// Motion of the air's frame: place, velocity and acceleration at t.
@@ -60,11 +60,11 @@ class DriftWind : public WindModel {
 using MakeFluid = std::function<std::unique_ptr<FluidModel>()>;
 
 std::unique_ptr<FluidModel> quasiSteady() {
-  return makeQuasiSteady(publishedMonarch().planform, Air{}, BladeElementVariant::kSaneDickinson);
+  return makeQuasiSteady(publishedMonarch().wings.right.planform, Air{}, BladeElementVariant::kSaneDickinson);
 }
 
 std::unique_ptr<FluidModel> navierStokes() {
-  return makeNavierStokes(publishedMonarch().planform, Air{}, smallGrid());
+  return makeNavierStokes(publishedMonarch().wings.right.planform, Air{}, smallGrid());
 }
 
 class Fluids : public ::testing::TestWithParam<MakeFluid> {};
@@ -74,7 +74,7 @@ std::vector<Loads> loadsOf(const MakeFluid& fluid, const PrescribedMotion& motio
                            const WindModel& wind, int steps, double dt) {
   CoupledModel model = testing::coupledModel({}, steps);
   model.newmark.dt = dt;
-  FluidParticipant air(model, fluid());
+  FluidParticipant air(Side::kRight, model, fluid());
   std::vector<Loads> loads;
   for (int n = 0; n <= steps; ++n) {
     Request request;
@@ -148,8 +148,10 @@ TEST_P(Fluids, AWingThatIsCarriedByTheWindFeelsNothing) {
       state.body = withPitch(state.body, {0.3, 0.0, 0.0});
       state.body.v = air_(t).v;
       state.body.a = air_(t).a;
-      state.angles.phi.q = 0.4;
-      state.angles.theta.q = -0.2;
+      WingAngles wing;
+      wing.phi.q = 0.4;
+      wing.theta.q = -0.2;
+      state.angles.wings = testing::both(wing);
       return state;
     }
 
@@ -177,7 +179,7 @@ std::vector<CommittedStep> fly(const MakeFluid& fluid,
   CouplingSettings settings = testing::couplingSettings();
   settings.tolerance = 1e-12;
   settings.load_tolerance = 1e-10;
-  FluidParticipant air(model, fluid());
+  FluidParticipant air(Side::kRight, model, fluid());
   FlightParticipant flight(model);
   WingParticipant wing(model);
   GuidanceParticipant guidance(
@@ -186,7 +188,7 @@ std::vector<CommittedStep> fly(const MakeFluid& fluid,
   const StopFlag stop{false};
   FlyUntil control(stop);
   const CoupledOutcome outcome =
-      Coordinator(model, settings, {&air, &flight, &wing, &guidance}, 7).run({&sink}, control);
+      Coordinator(model, settings, {&air, &flight, &wing, &guidance, nullptr}, 7).run({&sink}, control);
   EXPECT_TRUE(outcome.complete) << outcome.failure;
   return sink.steps;
 }

@@ -16,15 +16,20 @@ using testing::Random;
 
 constexpr double kGravity = 9.81;
 
-JointAngles anglesAt(double t, double shift) {
+WingAngles wingAt(double t, double shift) {
   return {testing::wave(0.1, 0.9, 1.0, shift, t), testing::wave(-0.2, 0.4, 1.3, 2.0 * shift, t),
-          testing::wave(0.3, 0.7, 0.8, 0.5 - shift, t), testing::wave(0.4, 0.5, 1.1, shift, t)};
+          testing::wave(0.3, 0.7, 0.8, 0.5 - shift, t)};
+}
+
+/// The wings alike, or each its own way.
+JointAngles anglesAt(double t, double right, double left) {
+  return {{wingAt(t, right), wingAt(t, left)}, testing::wave(0.4, 0.5, 1.1, right, t)};
 }
 
 /// A smooth motion without any symmetry: each wing, the abdomen and the body go their own way.
 InsectMotion motionAt(double t) {
   InsectMotion motion;
-  const JointAngles attitude = anglesAt(t, 0.7);
+  const WingAngles attitude = wingAt(t, 0.7);
   BodyState& body = motion.body;
   for (int i = 0; i < 3; ++i) {
     const Coordinate c = testing::wave(0.2 * i, 1.0 - 0.3 * i, 0.9 + 0.2 * i, 1.0 * i, t);
@@ -32,16 +37,25 @@ InsectMotion motionAt(double t) {
     body.v(i) = c.qd;
     body.a(i) = c.qdd;
   }
-  body.R_IB = wingAttitude(0.3, attitude);
+  body.R_IB = wingAttitude(Side::kRight, 0.3, attitude);
   body.Omega_B = wingRate(attitude);
   body.Omega_dot_B = wingRateDerivative(attitude);
-  const JointAngles right = anglesAt(t, 0.1), left = anglesAt(t, -1.2), abdomen = anglesAt(t, 2.2);
+  const WingAngles right = wingAt(t, 0.1), left = wingAt(t, -1.2), abdomen = wingAt(t, 2.2);
   const Vector3d axial(-1.0, 1.0, -1.0);
-  motion.joints[0] = {wingAttitude(0.4, right), wingRate(right), wingRateDerivative(right)};
-  motion.joints[1] = {leftWingAttitude(0.4, left), axial.cwiseProduct(wingRate(left)),
+  motion.joints[0] = {wingAttitude(Side::kRight, 0.4, right), wingRate(right),
+                      wingRateDerivative(right)};
+  motion.joints[1] = {wingAttitude(Side::kLeft, 0.4, left), axial.cwiseProduct(wingRate(left)),
                       axial.cwiseProduct(wingRateDerivative(left))};
-  motion.joints[2] = {wingAttitude(-0.2, abdomen), wingRate(abdomen), wingRateDerivative(abdomen)};
+  motion.joints[2] = {wingAttitude(Side::kRight, -0.2, abdomen), wingRate(abdomen),
+                      wingRateDerivative(abdomen)};
   return motion;
+}
+
+/// Each wing its own.
+PerWing<Loads> differentLoads(unsigned seed) {
+  Random random(seed);
+  const Loads right = random.loads(), left = random.loads();
+  return {right, left};
 }
 
 /// Central difference of tenth order; with this step and frequencies of order one, exact to 1e-13.
@@ -56,7 +70,7 @@ Value derivative(const std::function<Value(double)>& f, double t) {
 
 TEST(InsectMotion, RatesAreTheDerivativesOfTheAttitudes) {
   for (double t : {0.3, 2.1, 4.4}) {
-    auto at = [](double s) { return insectMotion(0.4, BodyState(), anglesAt(s, 0.1)); };
+    auto at = [](double s) { return insectMotion(0.4, BodyState(), anglesAt(s, 0.1, -1.2)); };
     for (std::size_t i = 0; i < 3; ++i) {
       const Matrix3d Q_dot = derivative<Matrix3d>([&](double s) { return at(s).joints[i].Q; }, t);
       const JointState joint = at(t).joints[i];
@@ -70,7 +84,7 @@ TEST(InsectMotion, RatesAreTheDerivativesOfTheAttitudes) {
 
 TEST(InsectMotion, LeftWingIsTheMirrorImage) {
   const Matrix3d mirror = Vector3d(1.0, -1.0, 1.0).asDiagonal();
-  const InsectMotion motion = insectMotion(0.4, BodyState(), anglesAt(1.0, 0.1));
+  const InsectMotion motion = insectMotion(0.4, BodyState(), anglesAt(1.0, 0.1, 0.1));
   EXPECT_LT((motion.joints[1].Q - mirror * motion.joints[0].Q * mirror).norm(), 1e-15);
   Random random(1);
   const Loads right = random.loads(), left = mirrored(right);
@@ -128,7 +142,8 @@ TEST_P(Dynamics, MomentRowsAreTheRateOfAngularMomentum) {
 /// Rows 7-15: the rate of each appendage's angular momentum about its moving joint.
 TEST_P(Dynamics, JointRowsAreTheAppendagesOwnMoments) {
   const Insect insect = largeMonarch();
-  const Appendage parts[3] = {insect.right, insect.left, insect.abdomen};
+  const Appendage parts[3] = {insect.wings.right.plate, mirrored(insect.wings.left.plate),
+                              insect.abdomen};
   const Vector15d force = dynamics_.inertialForce(motion_);
   for (std::size_t i = 0; i < 3; ++i) {
     const Appendage& part = parts[i];
@@ -160,37 +175,41 @@ TEST_P(Dynamics, PowerOfGravityIsTheLossOfPotentialEnergy) {
 
 TEST_P(Dynamics, PowerOfTheAirIsThatOfForcesAtTheJointsAndMoments) {
   const Insect insect = largeMonarch();
-  const Loads right = Random(7).loads(), left = mirrored(right);
+  const PerWing<Loads> both = differentLoads(7);
+  const Loads right = both.right, left = mirrored(both.left);
   double power = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     const Loads& loads = i == 0 ? right : left;
-    const Vector3d& mu = i == 0 ? insect.right.mu : insect.left.mu;
+    const Vector3d mu =
+        i == 0 ? insect.wings.right.plate.mu : mirrored(insect.wings.left.plate).mu;
     const JointState& joint = motion_.joints[i];
     const Vector3d v_I = motion_.body.v + motion_.body.R_IB * motion_.body.Omega_B.cross(mu);
     const Vector3d w = joint.Omega + joint.Q.transpose() * motion_.body.Omega_B;
     power += (motion_.body.R_IB * (joint.Q * loads.force())).dot(v_I) + loads.moment().dot(w);
   }
-  const Vector15d force = dynamics_.airForce(motion_, right);
+  const Vector15d force = dynamics_.airForce(motion_, both);
   EXPECT_NEAR(xi_.dot(force), power, 1e-13 * force.norm() * xi_.norm());
 }
 
 /// model.md section 2: rows 4-6 of the air are sum (mu x Q F + Q M).
 TEST_P(Dynamics, MomentOfTheAirAboutTheBodysCentre) {
   const Insect insect = largeMonarch();
-  const Loads right = Random(8).loads(), left = mirrored(right);
+  const PerWing<Loads> both = differentLoads(8);
+  const Loads right = both.right, left = mirrored(both.left);
   const Matrix3d& Q_R = motion_.joints[0].Q;
   const Matrix3d& Q_L = motion_.joints[1].Q;
-  const Vector3d moment = insect.right.mu.cross(Q_R * right.force()) + Q_R * right.moment() +
-                          insect.left.mu.cross(Q_L * left.force()) + Q_L * left.moment();
-  const Vector15d force = dynamics_.airForce(motion_, right);
+  const Vector3d mu_R = insect.wings.right.plate.mu, mu_L = mirrored(insect.wings.left.plate).mu;
+  const Vector3d moment = mu_R.cross(Q_R * right.force()) + Q_R * right.moment() +
+                          mu_L.cross(Q_L * left.force()) + Q_L * left.moment();
+  const Vector15d force = dynamics_.airForce(motion_, both);
   EXPECT_LT((force.segment<3>(3) - moment).norm(), 1e-14 * force.norm());
   EXPECT_EQ(Vector3d(force.tail<3>()), Vector3d::Zero());
 }
 
 TEST_P(Dynamics, JointTorquesCloseTheEquations) {
-  const Loads right = Random(9).loads();
-  const auto torque = dynamics_.jointTorques(motion_, right);
-  const Vector15d sum = dynamics_.gravityForce(motion_) + dynamics_.airForce(motion_, right);
+  const PerWing<Loads> loads = differentLoads(9);
+  const auto torque = dynamics_.jointTorques(motion_, loads);
+  const Vector15d sum = dynamics_.gravityForce(motion_) + dynamics_.airForce(motion_, loads);
   const Vector15d force = dynamics_.inertialForce(motion_);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_LT((sum.segment<3>(6 + 3 * i) + torque[i] - force.segment<3>(6 + 3 * i)).norm(),

@@ -65,14 +65,12 @@ std::vector<Row> published(const std::string& file) {
   return rows;
 }
 
-/// Joint angles with phi'' and psi'' recovered from the published derivative of Omega_R.
-JointAngles jointAngles(const Vector3d& euler, const Vector3d& euler_dot, const Vector3d& rate_dot,
-                        double theta_A) {
-  JointAngles angles;
+/// Angles of the right wing with phi'' and psi'' recovered from the published derivative of Omega_R.
+WingAngles wingAngles(const Vector3d& euler, const Vector3d& euler_dot, const Vector3d& rate_dot) {
+  WingAngles angles;
   angles.phi = {euler.x(), euler_dot.x(), 0.0};
   angles.theta = {euler.y(), euler_dot.y(), 0.0};
   angles.psi = {euler.z(), euler_dot.z(), 0.0};
-  angles.theta_A.q = theta_A;
   const Vector3d rest = rate_dot - wingRateDerivative(angles);  // linear in the second derivatives
   const double ct = std::cos(angles.theta.q), st = std::sin(angles.theta.q);
   angles.phi.qdd = (rest.x() * ct + rest.z() * st) / std::cos(angles.psi.q);
@@ -88,16 +86,11 @@ Eigen::Matrix<double, 6, 1> airLoad(const Row& row, const std::string& side) {
   return load;
 }
 
-/// A row of either file as a motion of our insect.
+/// A row of either file as a motion of our insect. Both wings have their own pitch: the published
+/// insect loses its symmetry to rounding.
 struct Sample {
   BodyState body;
-  JointAngles right, left;
-  /// Both wings with their own pitch: the published insect loses its symmetry to rounding.
-  InsectMotion motion(double beta) const {
-    InsectMotion motion = insectMotion(beta, body, right);
-    motion.joints[1] = insectMotion(beta, body, left).joints[1];
-    return motion;
-  }
+  JointAngles angles;
 };
 
 Sample hoverSample(const Row& row) {
@@ -107,11 +100,9 @@ Sample hoverSample(const Row& row) {
   s.body.a = row.vector("xddot");
   s.body.Omega_B = row.vector("W");
   s.body.Omega_dot_B = row.vector("Wdot");
-  s.right = jointAngles(row.vector("EulerR"), row.vector("EulerRdot"), row.vector("W_Rdot"),
-                        row("thetaA"));
-  s.right.theta_A.qd = row("W_A_2");
-  s.right.theta_A.qdd = row("W_Adot_2");
-  s.left = s.right;
+  s.angles.wings = testing::both(
+      wingAngles(row.vector("EulerR"), row.vector("EulerRdot"), row.vector("W_Rdot")));
+  s.angles.theta_A = {row("thetaA"), row("W_A_2"), row("W_Adot_2")};
   return s;
 }
 
@@ -122,12 +113,10 @@ Sample passiveSample(const Row& row) {
   s.body.a = row.vector("X_dot", 13);
   s.body.Omega_B = row.vector("X", 16);
   s.body.Omega_dot_B = row.vector("X_dot", 16);
-  s.right = jointAngles(row.vector("Euler_R"), row.vector("Euler_R_dot"), row.vector("W_R_dot"),
-                        row("theta_A"));
-  s.right.theta_A.qd = row("W_A_2");
-  s.right.theta_A.qdd = row("W_A_dot_2");
-  s.left = s.right;
-  s.left.theta = {row("X_20"), row("X_22"), row("X_dot_22")};
+  s.angles.wings = testing::both(
+      wingAngles(row.vector("Euler_R"), row.vector("Euler_R_dot"), row.vector("W_R_dot")));
+  s.angles.wings.left.theta = {row("X_20"), row("X_22"), row("X_dot_22")};
+  s.angles.theta_A = {row("theta_A"), row("W_A_2"), row("W_A_dot_2")};
   return s;
 }
 
@@ -151,7 +140,7 @@ void compare(const std::string& file, double beta, MakeSample sample, Spring spr
     const Matrix3d& R = s.body.R_IB;
     const double force_tolerance =
         (kTolerance + (R.transpose() * R - Matrix3d::Identity()).norm()) * force_scale;
-    const InsectMotion motion = s.motion(beta);
+    const InsectMotion motion = insectMotion(beta, s.body, s.angles);
     EXPECT_LT((motion.joints[0].Omega - row.vector("W_R")).norm(), kTolerance * 100.0);
     const Vector15d air = dynamics.appliedForce(
         motion, {airLoad(row, "R"), airLoad(row, "L"), Eigen::Matrix<double, 6, 1>::Zero()});
@@ -160,7 +149,7 @@ void compare(const std::string& file, double beta, MakeSample sample, Spring spr
     EXPECT_LT(rest.head<3>().norm(), force_tolerance) << row("t");
     for (int i = 0; i < 3; ++i) {
       Vector3d torque = rest.segment<3>(6 + 3 * i);
-      if (i < 2) torque.y() -= spring(i == 0 ? s.right.theta.q : s.left.theta.q);
+      if (i < 2) torque.y() -= spring(s.angles.wings[kSides[static_cast<std::size_t>(i)]].theta.q);
       const Vector3d published = row.vector("tau", 1 + 3 * i);  // in body axes
       EXPECT_LT((motion.joints[static_cast<std::size_t>(i)].Q * torque - published).norm(),
                 kTolerance * torque_scale)
@@ -181,9 +170,11 @@ TEST(PublishedPassivePitch, LinearMomentumAndJointTorques) {
 TEST(PublishedPassivePitch, WingPitchEquation) {
   Insect insect = testing::publishedMonarch();
   insect.beta = 0.6283185307179586;
-  insect.kappa = kKappa;
-  insect.theta_0 = kTheta0;
-  const WingPitchSolver solver(insect, kGravity, Newmark());
+  for (Side side : kSides) {
+    insect.wings[side].kappa = kKappa;
+    insect.wings[side].theta_0 = kTheta0;
+  }
+  const WingPitchSolver solver(Side::kRight, insect, kGravity, Newmark());
   double largest = 0.0;
   const std::vector<Row> rows = published("fwuav_passive_pitch_hover.csv");
   for (const Row& row : rows) largest = std::max(largest, std::abs(row("X_dot_21")));
@@ -192,7 +183,7 @@ TEST(PublishedPassivePitch, WingPitchEquation) {
     Loads loads;
     loads.force_pressure = row.vector("F_R");
     loads.moment_pressure = row.vector("M_R");
-    EXPECT_NEAR(solver.acceleration(s.body, s.right, loads), row("X_dot_21"), kTolerance * largest)
+    EXPECT_NEAR(solver.acceleration(s.body, s.angles, loads), row("X_dot_21"), kTolerance * largest)
         << row("t");
   }
 }

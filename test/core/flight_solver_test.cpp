@@ -11,15 +11,18 @@ namespace monarch_flight {
 namespace {
 
 using Eigen::Vector3d;
+using testing::both;
 using testing::Random;
 
 constexpr double kGravity = 9.81;
-constexpr FreeCoordinates kBodyFree = {true, true, true, false};
+const FreeCoordinates kBodyFree = {kX, kZ, kPitch};
+const PerWing<Loads> kNoAir;
 
 /// Accelerations with Lagrange multipliers: all 15 equations, the prescribed accelerations as
 /// constraints.
 Vector15d constrainedAccelerations(const MultibodyDynamics& dynamics, const InsectMotion& motion,
-                                   const Loads& loads, const std::vector<int>& free_rows) {
+                                   const PerWing<Loads>& loads,
+                                   const std::vector<int>& free_rows) {
   Eigen::Matrix<double, 30, 30> system = Eigen::Matrix<double, 30, 30>::Zero();
   Eigen::Matrix<double, 30, 1> right = Eigen::Matrix<double, 30, 1>::Zero();
   system.topLeftCorner<15, 15>() = dynamics.inertia(motion);
@@ -39,22 +42,27 @@ TEST(FlightSolver, ReducedFormEqualsTheFullSystem) {
   const Insect insect = testing::largeMonarch();
   const MultibodyDynamics dynamics(insect, kGravity);
   Random random(21);
-  for (int mask = 0; mask < 8; ++mask) {
-    const FreeCoordinates free = {(mask & 1) != 0, (mask & 2) != 0, (mask & 4) != 0, false};
+  for (unsigned mask = 0; mask < 64; ++mask) {
+    FreeCoordinates free;
+    std::vector<int> rows;  // the body's coordinates are the first of the 15 velocities
+    for (int i = 0; i < 6; ++i) {
+      free[static_cast<std::size_t>(i)] = (mask >> i & 1u) != 0;
+      if (free[static_cast<std::size_t>(i)]) rows.push_back(i);
+    }
     const FlightSolver solver(insect, kGravity, free, Newmark());
-    std::vector<int> rows;
-    if (free.x) rows.push_back(0);
-    if (free.z) rows.push_back(2);
-    if (free.pitch) rows.push_back(4);
     for (int i = 0; i < 30; ++i) {
-      const BodyState body = random.pitchedBody();
-      const JointAngles angles = random.angles();
-      const Loads loads = random.loads();
+      const bool symmetric = i % 2 == 0;
+      const BodyState body = symmetric ? random.pitchedBody() : random.body();
+      JointAngles angles = random.angles();
+      PerWing<Loads> loads = both(random.loads());
+      if (!symmetric) {
+        angles.wings.left = random.angles().wings.left;
+        loads.left = random.loads();
+      }
       const Vector15d expected =
           constrainedAccelerations(dynamics, insectMotion(insect.beta, body, angles), loads, rows);
-      const Vector3d found = solver.accelerations(body, angles, loads);
-      EXPECT_LT((found - Vector3d(expected(0), expected(2), expected(4))).norm(),
-                1e-12 * expected.norm());
+      const BodyVector found = solver.accelerations(body, angles, loads);
+      EXPECT_LT((found - expected.head<6>()).norm(), 1e-12 * expected.norm());
     }
   }
 }
@@ -65,8 +73,8 @@ TEST(FlightSolver, ForgetsTheGuessedAccelerations) {
   Random random(22);
   BodyState body = random.pitchedBody();
   const JointAngles angles = random.angles();
-  const Loads loads = random.loads();
-  const Vector3d first = solver.accelerations(body, angles, loads);
+  const PerWing<Loads> loads = both(random.loads());
+  const BodyVector first = solver.accelerations(body, angles, loads);
   body.a.x() += 3.0;
   body.a.z() -= 2.0;
   body = withPitch(body, {body.pitch.q, body.pitch.qd, 7.0});
@@ -78,9 +86,9 @@ TEST(FlightSolver, PrescribedCoordinatesAreTakenFromTheMotion) {
   newmark.dt = 0.01;
   Random random(23);
   const BodyState n = random.pitchedBody(), prescribed = random.pitchedBody();
-  const FlightSolver solver(testing::largeMonarch(), kGravity, {false, true, false, false},
-                            newmark);
-  const BodyState next = solver.step(n, prescribed, prescribed, random.angles(), random.loads());
+  const FlightSolver solver(testing::largeMonarch(), kGravity, {kZ}, newmark);
+  const JointAngles angles = random.angles();
+  const BodyState next = solver.step(n, prescribed, prescribed, angles, both(random.loads()));
   EXPECT_EQ(next.x.x(), prescribed.x.x());
   EXPECT_EQ(next.x.y(), prescribed.x.y());
   EXPECT_EQ(next.R_IB, prescribed.R_IB);
@@ -94,18 +102,19 @@ TEST(FlightSolver, PrescribedCoordinatesAreTakenFromTheMotion) {
 TEST(FlightSolver, RefusesWhatItCannotDo) {
   Insect bare = testing::largeMonarch();
   bare.bare_wing = true;
-  EXPECT_THROW(FlightSolver(bare, kGravity, {true, false, false, false}, Newmark()), InputError);
-  EXPECT_NO_THROW(FlightSolver(bare, kGravity, {false, false, false, true}, Newmark()));
+  EXPECT_THROW(FlightSolver(bare, kGravity, {kX}, Newmark()), InputError);
+  EXPECT_NO_THROW(FlightSolver(bare, kGravity, {kThetaR}, Newmark()));
 
   const FlightSolver solver(testing::largeMonarch(), kGravity, kBodyFree, Newmark());
   BodyState rolled;
   rolled.R_IB = rotationX(0.1);
-  EXPECT_THROW(solver.step(rolled, rolled, rolled, JointAngles(), Loads()), InputError);
+  EXPECT_THROW(solver.step(rolled, rolled, rolled, JointAngles(), kNoAir), InputError);
 
   Insect massless = testing::largeMonarch();
-  massless.m_B = massless.right.m = massless.left.m = massless.abdomen.m = 0.0;
-  EXPECT_THROW(FlightSolver(massless, kGravity, {true, false, false, false}, Newmark())
-                   .accelerations(BodyState(), JointAngles(), Loads()),
+  massless.m_B = massless.abdomen.m = 0.0;
+  for (Side side : kSides) massless.wings[side].plate.m = 0.0;
+  EXPECT_THROW(FlightSolver(massless, kGravity, {kX}, Newmark())
+                   .accelerations(BodyState(), JointAngles(), kNoAir),
                NumericalError);
 }
 
@@ -116,7 +125,7 @@ class Vacuum {
       : insect_(insect), passive_(passive), flapping_(flapping) {
     newmark_.dt = dt;
     flight_.emplace(insect, gravity, kBodyFree, newmark_);
-    wing_.emplace(insect, gravity, newmark_);
+    wing_.emplace(Side::kRight, insect, gravity, newmark_);
     body_.v = {0.8, 0.0, -0.5};
     body_ = withPitch(body_, {0.3, flapping ? 0.4 : 0.0, 0.0});
     theta_ = {0.2, passive ? 1.0 : 0.0, 0.0};
@@ -132,7 +141,7 @@ class Vacuum {
       angles_ = prescribed(t_);
       if (passive_) theta_ = wing_->step(theta_n, body_, angles_, Loads());
       angles_ = prescribed(t_);
-      const BodyState next = flight_->step(n, n, body_, angles_, Loads());
+      const BodyState next = flight_->step(n, n, body_, angles_, kNoAir);
       const double change = (next.a - body_.a).norm() + std::abs(next.pitch.qdd - body_.pitch.qdd);
       body_ = next;
       if (change < 1e-13 * (1.0 + next.a.norm() + std::abs(next.pitch.qdd))) return;
@@ -146,31 +155,34 @@ class Vacuum {
   const BodyState& body() const { return body_; }
 
   double energy() const {
-    const double spring = insect_.kappa * std::pow(angles_.theta.q - insect_.theta_0, 2);
+    const double spring = hinge().kappa * std::pow(theta().q - hinge().theta_0, 2);
     return dynamics().kineticEnergy(motion()) + dynamics().potentialEnergy(motion()) +
            (passive_ ? spring : 0.0);  // both hinges
   }
   /// Power of the joints, without that of the hinges' springs [W].
   double musclePower() const {
     const InsectMotion m = motion();
-    const auto torque = dynamics().jointTorques(m, Loads());
+    const auto torque = dynamics().jointTorques(m, kNoAir);
     double power = 0.0;
     for (std::size_t i = 0; i < 3; ++i) power += torque[i].dot(m.joints[i].Omega);
-    const double spring = -insect_.kappa * (angles_.theta.q - insect_.theta_0);
-    return power - (passive_ ? 2.0 * spring * angles_.theta.qd : 0.0);
+    const double spring = -hinge().kappa * (theta().q - hinge().theta_0);
+    return power - (passive_ ? 2.0 * spring * theta().qd : 0.0);
   }
 
  private:
+  const Wing& hinge() const { return insect_.wings.right; }
+  const Coordinate& theta() const { return angles_.wings.right.theta; }
   JointAngles prescribed(double t) const {
-    if (!flapping_) return {{0.2, 0, 0}, {0.1, 0, 0}, theta_, {0.3, 0, 0}};
+    if (!flapping_) return {both(WingAngles{{0.2, 0, 0}, {0.1, 0, 0}, theta_}), {0.3, 0, 0}};
     const Coordinate theta = passive_ ? theta_ : testing::wave(0.1, 0.6, 6.0, 1.5, t);
-    return {testing::wave(0.1, 0.9, 6.0, 0.4, t), testing::wave(0.0, 0.1, 12.0, 1.0, t), theta,
-            testing::wave(0.3, 0.2, 6.0, 2.5, t)};
+    const WingAngles wing{testing::wave(0.1, 0.9, 6.0, 0.4, t),
+                          testing::wave(0.0, 0.1, 12.0, 1.0, t), theta};
+    return {both(wing), testing::wave(0.3, 0.2, 6.0, 2.5, t)};
   }
   void solveAccelerations() {
-    const Vector3d a = flight_->accelerations(body_, angles_, Loads());
-    body_.a = {a.x(), 0.0, a.y()};
-    body_ = withPitch(body_, {body_.pitch.q, body_.pitch.qd, a.z()});
+    const BodyVector a = flight_->accelerations(body_, angles_, kNoAir);
+    body_.a = {a(kX), 0.0, a(kZ)};
+    body_ = withPitch(body_, {body_.pitch.q, body_.pitch.qd, a(kPitch)});
     if (passive_) theta_.qdd = wing_->acceleration(body_, angles_, Loads());
     angles_ = prescribed(0.0);
   }

@@ -53,11 +53,11 @@ WingMotion motionOf(const Row& row, const Vector3d& mu) {
   Matrix3d R;
   for (int i = 0; i < 9; ++i) R(i % 3, i / 3) = row.at("Rcm_" + std::to_string(i + 1));
   const Vector3d euler = vector(row, "EulerR"), W = vector(row, "W");
-  JointAngles angles;
+  WingAngles angles;
   angles.phi.q = euler.x();
   angles.theta.q = euler.y();
   angles.psi.q = euler.z();
-  const Matrix3d Q = wingAttitude(kBeta, angles);
+  const Matrix3d Q = wingAttitude(Side::kRight, kBeta, angles);
   WingMotion m;
   m.R_IW = R * Q;
   m.v_W = Q.transpose() * (R.transpose() * vector(row, "xdot") + W.cross(mu));
@@ -68,7 +68,8 @@ WingMotion motionOf(const Row& row, const Vector3d& mu) {
 
 TEST(QuasiSteadyPublished, HoverIsCarriedAndFollowed) {
   const Insect insect = loadCase("tethered_fwuav", {}, CONFIG_DIR).insect;
-  const auto model = makeQuasiSteady(insect.planform, Air{}, BladeElementVariant::kSaneDickinson);
+  const auto model = makeQuasiSteady(insect.wings.right.planform, Air{},
+                                     BladeElementVariant::kSaneDickinson);
   model->start(WingMotion{}, 1e-3);
   const std::vector<Row> rows = published();
   ASSERT_GE(rows.size(), 50u);
@@ -76,7 +77,7 @@ TEST(QuasiSteadyPublished, HoverIsCarriedAndFollowed) {
   double mine_theirs = 0.0, mine_mine = 0.0, theirs_theirs = 0.0;
   for (std::size_t i = 0; i + 1 < rows.size();
        ++i) {  // the last row is the first of the next period
-    const WingMotion m = motionOf(rows[i], insect.right.mu);
+    const WingMotion m = motionOf(rows[i], insect.wings.right.plate.mu);
     const Vector3d F = model->evaluate(m).force(), published_F = vector(rows[i], "F_R");
     mean += m.R_IW * F * (2.0 / static_cast<double>(rows.size() - 1));
     mine_theirs += F.z() * published_F.z();

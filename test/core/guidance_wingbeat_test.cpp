@@ -78,19 +78,20 @@ TEST(WingbeatGuidance, WithoutACommandIsTheMotionBitForBit) {
 TEST(WingbeatGuidance, AnglesHaveTheDerivativesThatItSays) {
   WingbeatChange all;
   int k = 0;
-  for (const CommandInfo& info : kCommandTable) all.*info.value = 0.05 * ++k - 0.15;
+  for (const CommandInfo& info : kCommandTable) all.*info.value = 0.035 * ++k - 0.135;
   Led led(std::make_unique<Scripted>([&](std::uint32_t n) -> std::optional<WingbeatChange> {
     if (n == 3) return all;
     return std::nullopt;
   }));
-  std::vector<std::array<Coordinate, 3>> levels;
+  std::vector<std::array<Coordinate, 5>> levels;
   for (int i = 0; i < 2000; ++i) {
     led.step();
-    levels.push_back({led.level.angles.phi, led.level.angles.psi, led.level.angles.theta_A});
+    const auto& [right, left] = led.level.angles.wings;
+    levels.push_back({right.phi, right.psi, left.phi, left.psi, led.level.angles.theta_A});
   }
   double worst_rate = 0.0, worst_acceleration = 0.0;
   for (std::size_t i = 1; i + 1 < levels.size(); ++i) {
-    for (int a = 0; a < 3; ++a) {
+    for (std::size_t a = 0; a < 5; ++a) {
       const Coordinate &l = levels[i - 1][a], &m = levels[i][a], &r = levels[i + 1][a];
       worst_rate = std::max(worst_rate, std::abs((r.q - l.q) / (2.0 * kDt) - m.qd));
       worst_acceleration =
@@ -116,7 +117,7 @@ TEST(WingbeatGuidance, CommandsDoWhatTheySay) {
   const double phase = led.guidance.report().phase;
   for (int i = 0; i < 10000; ++i) {
     led.step();
-    const double q[3] = {led.level.angles.phi.q, led.level.angles.psi.q,
+    const double q[3] = {led.level.angles.wings.right.phi.q, led.level.angles.wings.right.psi.q,
                          led.level.angles.theta_A.q};
     for (int a = 0; a < 3; ++a) {
       low[a] = std::min(low[a], q[a]);
@@ -129,8 +130,42 @@ TEST(WingbeatGuidance, CommandsDoWhatTheySay) {
   EXPECT_NEAR(0.5 * (high[1] - low[1]), 0.05, 1e-5);
   EXPECT_NEAR(0.5 * (high[2] + low[2]), 0.3 - 0.06, 1e-5);
   EXPECT_NEAR(0.5 * (high[2] - low[2]), 0.2 * 1.25, 1e-5);
-  EXPECT_NEAR(led.level.rest_angle, 0.07, 1e-12);
+  for (Side side : kSides) EXPECT_NEAR(led.level.rest_angle[side], 0.07, 1e-12);
   EXPECT_NEAR(led.guidance.report().phase - phase, 0.9 * kFrequency * 1.0, 1e-9);  // one second
+}
+
+TEST(WingbeatGuidance, DifferencesAreOnTopForTheRightWingAndLessForTheLeftOne) {
+  WingbeatChange wanted;
+  wanted.amplitude = 0.1;
+  wanted.flapping_mean = 0.1;
+  wanted.deviation_mean = 0.05;
+  wanted.rest_angle = 0.07;
+  wanted.amplitude_difference = 0.2;
+  wanted.flapping_difference = -0.06;
+  wanted.deviation_difference = 0.02;
+  wanted.rest_angle_difference = 0.03;
+  Led led(std::make_unique<Scripted>([&](std::uint32_t) { return wanted; }));
+  for (int i = 0; i < 10000; ++i) led.step();  // ten flaps: the filters have settled
+  PerWing<std::array<double, 2>> low{{1e9, 1e9}, {1e9, 1e9}}, high{{-1e9, -1e9}, {-1e9, -1e9}};
+  for (int i = 0; i < 1000; ++i) {
+    led.step();
+    for (Side side : kSides) {
+      const WingAngles& wing = led.level.angles.wings[side];
+      const double q[2] = {wing.phi.q, wing.psi.q};
+      for (std::size_t a = 0; a < 2; ++a) {
+        low[side][a] = std::min(low[side][a], q[a]);
+        high[side][a] = std::max(high[side][a], q[a]);
+      }
+    }
+  }
+  for (Side side : kSides) {
+    const double sign = side == Side::kRight ? 1.0 : -1.0;
+    const auto &l = low[side], &h = high[side];
+    EXPECT_NEAR(0.5 * (h[0] + l[0]), 0.2 - sign * 0.06, 1e-4);  // SineFlapping: 0.1 +- 0.9
+    EXPECT_NEAR(0.5 * (h[0] - l[0]), 0.9 * (1.1 + sign * 0.2), 1e-4);
+    EXPECT_NEAR(0.5 * (h[1] + l[1]), 0.05 + sign * 0.02, 1e-4);
+    EXPECT_NEAR(led.level.rest_angle[side], 0.07 + sign * 0.03, 1e-12);
+  }
 }
 
 TEST(WingbeatGuidance, CutsWhatIsOutOfBoundsRefusesWhatIsNoNumberAndCounts) {

@@ -41,7 +41,7 @@ struct Motion {
            Rx.transpose() * Ry.transpose() * Eigen::Vector3d(0, 0, yaw.at(t).qd);
   }
   BodyState body(double t) const;
-  JointAngles joints(double t) const { return {phi.at(t), psi.at(t), theta.at(t), Coordinate{}}; }
+  WingAngles wing(double t) const { return {phi.at(t), psi.at(t), theta.at(t)}; }
 };
 
 /// Sixth-order central difference.
@@ -71,12 +71,14 @@ TEST(Kinematics, WingRateIsTheDerivativeOfTheAttitude) {
   for (int trial = 0; trial < 20; ++trial) {
     const Motion m(random);
     const double t = 0.1 * trial;
-    const auto Q = [&](double s) -> Eigen::Matrix3d { return wingAttitude(0.44, m.joints(s)); };
+    const auto Q = [&](double s) -> Eigen::Matrix3d {
+      return wingAttitude(Side::kRight, 0.44, m.wing(s));
+    };
     const Eigen::Matrix3d Qd = difference<Eigen::Matrix3d>(Q, t, kStep);
-    EXPECT_LT((Q(t).transpose() * Qd - hat(wingRate(m.joints(t)))).norm(), 1e-10);
+    EXPECT_LT((Q(t).transpose() * Qd - hat(wingRate(m.wing(t)))).norm(), 1e-10);
     const Eigen::Vector3d rate_dot = difference<Eigen::Vector3d>(
-        [&](double s) -> Eigen::Vector3d { return wingRate(m.joints(s)); }, t, kStep);
-    EXPECT_LT((rate_dot - wingRateDerivative(m.joints(t))).norm(), 1e-9);
+        [&](double s) -> Eigen::Vector3d { return wingRate(m.wing(s)); }, t, kStep);
+    EXPECT_LT((rate_dot - wingRateDerivative(m.wing(t))).norm(), 1e-9);
   }
 }
 
@@ -84,11 +86,17 @@ TEST(Kinematics, WingMotionIsConsistentForAnyBodyMotion) {
   std::mt19937 random(11);
   Insect insect = makeBareWing("wing", {}, Planform::rectangle(0.02, 0.05, 0.25));
   insect.beta = 0.44;
-  insect.right.mu << 0.3, -0.2, 0.5;
+  insect.wings.right.plate.mu << 0.3, -0.2, 0.5;
+  insect.wings.left.plate.mu << 0.1, 0.4, -0.3;
   for (int trial = 0; trial < 20; ++trial) {
+    const Side side = kSides[static_cast<std::size_t>(trial) % 2];
     const Motion m(random);
     const double t = 0.1 * trial;
-    const auto at = [&](double s) { return rightWingMotion(insect, m.body(s), m.joints(s)); };
+    const auto at = [&](double s) {
+      JointAngles angles;
+      angles.wings[side] = m.wing(s);
+      return wingMotion(side, insect, m.body(s), angles);
+    };
     const WingMotion w = at(t);
     const Eigen::Vector3d r_dot = difference<Eigen::Vector3d>(
         [&](double s) -> Eigen::Vector3d { return at(s).r_I; }, t, kStep);
@@ -112,9 +120,9 @@ TEST(Kinematics, LeftWingIsTheMirrorImage) {
       plateWing(Planform::rectangle(0.02, 0.05, 0.25), 1e-5, Eigen::Vector3d(0.001, 0.003, -0.002));
   const Appendage left = mirrored(right);
   for (int trial = 0; trial < 20; ++trial) {
-    const JointAngles angles = Motion(random).joints(0.3);
-    const Eigen::Matrix3d QR = wingAttitude(0.44, angles);
-    const Eigen::Matrix3d QL = leftWingAttitude(0.44, angles);
+    const WingAngles angles = Motion(random).wing(0.3);
+    const Eigen::Matrix3d QR = wingAttitude(Side::kRight, 0.44, angles);
+    const Eigen::Matrix3d QL = wingAttitude(Side::kLeft, 0.44, angles);
     EXPECT_LT((QL - mirror * QR * mirror).norm(), 1e-15);
     EXPECT_LT((left.mu + QL * left.nu - mirror * (right.mu + QR * right.nu)).norm(), 1e-17);
     const Eigen::Matrix3d JR = QR * right.J * QR.transpose();
@@ -122,17 +130,40 @@ TEST(Kinematics, LeftWingIsTheMirrorImage) {
   }
 }
 
+/// The left wing where it is, seen in the plane y = 0, is the right wing that wingMotion tells of.
+TEST(Kinematics, MotionOfTheLeftWingIsSeenInAMirror) {
+  std::mt19937 random(5);
+  const Eigen::Matrix3d mirror = Eigen::Vector3d(1, -1, 1).asDiagonal();
+  Insect insect = makeBareWing("wing", {}, Planform::rectangle(0.02, 0.05, 0.25));
+  insect.beta = 0.44;
+  insect.wings.left.plate.mu << 0.1, 0.4, -0.3;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Motion m(random);
+    JointAngles angles;
+    angles.wings.left = m.wing(0.3);
+    const BodyState body = m.body(0.3);
+    const WingMotion seen = wingMotion(Side::kLeft, insect, body, angles);
+    const Eigen::Vector3d root = body.x + body.R_IB * mirrored(insect.wings.left.plate).mu;
+    const Eigen::Matrix3d R = body.R_IB * wingAttitude(Side::kLeft, 0.44, angles.wings.left);
+    EXPECT_LT((seen.r_I - mirror * root).norm(), 1e-15);
+    EXPECT_LT((seen.R_IW - mirror * R * mirror).norm(), 1e-14);
+  }
+}
+
 TEST(Kinematics, AttitudesAtNamedAngles) {
+  WingAngles wing;
+  wing.phi.q = M_PI / 2.0;  // wing tip down
+  EXPECT_LT((wingAttitude(Side::kRight, 0.0, wing).col(1) - Eigen::Vector3d::UnitZ()).norm(),
+            1e-15);
+  wing = {};
+  wing.theta.q = M_PI / 2.0;  // leading edge up
+  EXPECT_LT((wingAttitude(Side::kRight, 0.0, wing).col(0) + Eigen::Vector3d::UnitZ()).norm(),
+            1e-15);
+  wing = {};
+  wing.psi.q = M_PI / 2.0;  // tip forward
+  EXPECT_LT((wingAttitude(Side::kRight, 0.0, wing).col(1) - Eigen::Vector3d::UnitX()).norm(),
+            1e-15);
   JointAngles angles;
-  angles.phi.q = M_PI / 2.0;  // wing tip down
-  EXPECT_LT((wingAttitude(0.0, angles).col(1) - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
-  angles = {};
-  angles.theta.q = M_PI / 2.0;  // leading edge up
-  EXPECT_LT((wingAttitude(0.0, angles).col(0) + Eigen::Vector3d::UnitZ()).norm(), 1e-15);
-  angles = {};
-  angles.psi.q = M_PI / 2.0;  // tip forward
-  EXPECT_LT((wingAttitude(0.0, angles).col(1) - Eigen::Vector3d::UnitX()).norm(), 1e-15);
-  angles = {};
   angles.theta_A.q = 0.3;
   EXPECT_LT((abdomenAttitude(angles) - rotationY(0.3)).norm(), 1e-15);
 }

@@ -62,7 +62,7 @@ TEST(Fourier, MotionMovesBodyAndPitches) {
   EXPECT_NEAR(state.body.pitch.q, 0.5, 1e-15);
   EXPECT_LT((state.body.R_IB - rotationY(0.5)).norm(), 1e-15);
   EXPECT_NEAR(state.body.Omega_dot_B.y(), -0.2 * std::pow(20.0 * M_PI, 2), 1e-9);
-  EXPECT_NEAR(state.angles.phi.q, 0.1, 1e-15);
+  EXPECT_NEAR(state.angles.wings.right.phi.q, 0.1, 1e-15);
 }
 
 TEST(Start, ExplicitCoordinatesLeaveAtAConstantRate) {
@@ -80,8 +80,8 @@ TEST(Start, ExplicitCoordinatesLeaveAtAConstantRate) {
   EXPECT_NEAR(at.body.x.x(), 2.3, 1e-15);
   EXPECT_EQ(at.body.v.x(), 3.0);
   EXPECT_EQ(at.body.x.y(), base->at(0.6).body.x.y());
-  EXPECT_NEAR(at.angles.theta.q, -0.3, 1e-15);
-  EXPECT_EQ(at.angles.theta.qdd, 0.0);
+  EXPECT_NEAR(at.angles.wings.right.theta.q, -0.3, 1e-15);
+  EXPECT_EQ(at.angles.wings.right.theta.qdd, 0.0);
   EXPECT_EQ(at.body.pitch.q, base->at(0.6).body.pitch.q);
   start.pitch = StartValue{0.2, 1.0};
   const PrescribedState pitched = StartMotion(base, start, 0.5).at(0.6);
@@ -191,9 +191,9 @@ TEST(Table, BodyKindReproducesPolynomialsExactly) {
   EXPECT_NEAR(s.body.v.z(), -0.5, 1e-12);
   EXPECT_NEAR(s.body.pitch.q, 0.4234, 1e-13);
   EXPECT_NEAR(s.body.Omega_B.y(), 1.0, 1e-11);
-  EXPECT_NEAR(s.angles.phi.qd, 2.0, 1e-11);
-  EXPECT_NEAR(s.angles.psi.q, 0.3702, 1e-13);
-  EXPECT_NEAR(s.angles.theta.q, 0.4936, 1e-13);
+  EXPECT_NEAR(s.angles.wings.right.phi.qd, 2.0, 1e-11);
+  EXPECT_NEAR(s.angles.wings.right.psi.q, 0.3702, 1e-13);
+  EXPECT_NEAR(s.angles.wings.right.theta.q, 0.4936, 1e-13);
   EXPECT_NEAR(s.angles.theta_A.qdd, 2.0, 1e-8);
   EXPECT_NO_THROW(motion.at(0.29));
   EXPECT_THROW(motion.at(0.2901), std::out_of_range);

@@ -56,10 +56,11 @@ TEST(TableAngles, AreTheSameHoweverTheyAreWrapped) {
       const TableMotion a(smooth, TableKind::kBody, kChord), b(cut, TableKind::kBody, kChord);
       for (double t = 0.001; t < 1.99; t += 0.0137) {
         const PrescribedState s = a.at(t), w = b.at(t);
+        const WingAngles &own = s.angles.wings.right, &other_own = w.angles.wings.right;
         const std::pair<Coordinate, Coordinate> all[] = {{s.body.pitch, w.body.pitch},
-                                                         {s.angles.phi, w.angles.phi},
-                                                         {s.angles.psi, w.angles.psi},
-                                                         {s.angles.theta, w.angles.theta},
+                                                         {own.phi, other_own.phi},
+                                                         {own.psi, other_own.psi},
+                                                         {own.theta, other_own.theta},
                                                          {s.angles.theta_A, w.angles.theta_A}};
         for (const auto& [one, other] : all) {
           EXPECT_NEAR(wrapped(one.q - other.q), 0.0, 1e-11) << name;

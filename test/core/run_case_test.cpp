@@ -18,7 +18,7 @@ TEST_F(CaseTest, EveryShippedCaseLoads) {
     EXPECT_TRUE(c.insect.problems().empty());
     EXPECT_TRUE(c.coupling.problems().empty());
     EXPECT_GT(c.time.steps, 0u);
-    EXPECT_DOUBLE_EQ(c.coupling.length_scale, c.insect.planform.meanChord());
+    EXPECT_DOUBLE_EQ(c.coupling.length_scale, c.insect.wings.right.planform.meanChord());
     EXPECT_NO_THROW(c.motion->at(c.time.time(c.time.steps)));
   }
 }
@@ -26,12 +26,12 @@ TEST_F(CaseTest, EveryShippedCaseLoads) {
 TEST_F(CaseTest, ClimbIsThePapersFlight) {
   const Case c = loadCase("climb_printed", {}, CONFIG_DIR);
   EXPECT_EQ(c.free.count(), 4);
-  EXPECT_NEAR(c.insect.planform.span(), 0.052, 1e-15);
-  EXPECT_NEAR(c.insect.planform.area(), 15.2e-4, 1e-14);
+  EXPECT_NEAR(c.insect.wings.right.planform.span(), 0.052, 1e-15);
+  EXPECT_NEAR(c.insect.wings.right.planform.area(), 15.2e-4, 1e-14);
   EXPECT_DOUBLE_EQ(c.insect.m_B, 220e-6);
-  EXPECT_DOUBLE_EQ(c.insect.right.m, 36.25e-6);
-  EXPECT_DOUBLE_EQ(c.insect.left.nu.y(), -c.insect.right.nu.y());
-  EXPECT_DOUBLE_EQ(c.insect.kappa, 1.5e-4);
+  EXPECT_DOUBLE_EQ(c.insect.wings.right.plate.m, 36.25e-6);
+  EXPECT_EQ(c.insect.wings.left.plate.nu, c.insect.wings.right.plate.nu);  // as its mirror image
+  EXPECT_DOUBLE_EQ(c.insect.wings.right.kappa, 1.5e-4);
   EXPECT_DOUBLE_EQ(c.insect.beta, 25.4292 * M_PI / 180.0);
   EXPECT_EQ(c.coupling.prescribed_steps, 10);
   EXPECT_EQ(c.coupling.tolerance, 1e-8);
@@ -40,12 +40,13 @@ TEST_F(CaseTest, ClimbIsThePapersFlight) {
   const PrescribedState start = c.motion->at(0.0);
   EXPECT_LT((start.body.v - Eigen::Vector3d(1.3, 0, -0.562)).norm(), 1e-15);
   // Sum of the cosine coefficients of the flapping angle.
-  EXPECT_NEAR(start.angles.phi.q * 180.0 / M_PI,
+  EXPECT_NEAR(start.angles.wings.right.phi.q * 180.0 / M_PI,
               -0.83724 + 59.7558745992612 - 0.137466978762473 + 0.137978226025185 +
                   0.433746159939459 - 0.074830919096204,
               1e-10);
   // Deviation runs at twice the flapping frequency.
-  EXPECT_NEAR(c.motion->at(0.0).angles.psi.q, c.motion->at(0.5 / 10.2).angles.psi.q, 1e-12);
+  EXPECT_NEAR(start.angles.wings.right.psi.q,
+              c.motion->at(0.5 / 10.2).angles.wings.right.psi.q, 1e-12);
 }
 
 TEST_F(CaseTest, PlateHasLengthsOfOrderOne) {
@@ -53,9 +54,9 @@ TEST_F(CaseTest, PlateHasLengthsOfOrderOne) {
   EXPECT_TRUE(c.insect.bare_wing);
   EXPECT_EQ(c.time.steps, 500u);
   EXPECT_EQ(c.time.period, 0.0);
-  EXPECT_NEAR(c.air.rho * 1.0 * c.insect.planform.meanChord() / c.air.mu, 100.0, 1e-10);
+  EXPECT_NEAR(c.air.rho * 1.0 * c.insect.wings.right.planform.meanChord() / c.air.mu, 100.0, 1e-10);
   const PrescribedState s = c.motion->at(1.0);
-  const WingMotion wing = rightWingMotion(c.insect, s.body, s.angles);
+  const WingMotion wing = wingMotion(Side::kRight, c.insect, s.body, s.angles);
   EXPECT_NEAR(wing.r_I.x(), 1.0, 1e-15);
   // Incidence of 30 deg: the wing moves along its chord and towards its lower side.
   EXPECT_NEAR(wing.v_W.x(), std::cos(M_PI / 6.0), 1e-15);
@@ -70,8 +71,9 @@ TEST_F(CaseTest, ResolvedCaseLoadsToItselfBitForBit) {
     EXPECT_EQ(again.resolved_yaml, c.resolved_yaml);
     EXPECT_EQ(again.sha256, c.sha256);
     EXPECT_EQ(again.time.dt, c.time.dt);
-    EXPECT_EQ(again.insect.right.J, c.insect.right.J);
-    EXPECT_EQ(again.motion->at(0.0123).angles.phi.qdd, c.motion->at(0.0123).angles.phi.qdd);
+    EXPECT_EQ(again.insect.wings.right.plate.J, c.insect.wings.right.plate.J);
+    EXPECT_EQ(again.motion->at(0.0123).angles.wings.right.phi.qdd,
+              c.motion->at(0.0123).angles.wings.right.phi.qdd);
     EXPECT_FALSE(again.output.record);
   }
 }
@@ -148,15 +150,15 @@ time: {steps_per_flap: 500, flaps: 1}
 )");
   const Case c = loadCase(path, {}, CONFIG_DIR);
   const Case nominal = loadCase("climb_printed", {}, CONFIG_DIR);
-  EXPECT_LT((c.insect.right.J - 2.0 * nominal.insect.right.J).norm(), 1e-20);
+  EXPECT_LT((c.insect.wings.right.plate.J - 2.0 * nominal.insect.wings.right.plate.J).norm(), 1e-20);
   EXPECT_EQ(c.insect.m_B, nominal.insect.m_B);
-  EXPECT_EQ(c.motion->at(0.01).angles.psi.qd, 0.0);
-  EXPECT_NE(c.motion->at(0.01).angles.phi.qd, 0.0);
+  EXPECT_EQ(c.motion->at(0.01).angles.wings.right.psi.qd, 0.0);
+  EXPECT_NE(c.motion->at(0.01).angles.wings.right.phi.qd, 0.0);
   const PrescribedState s = c.motion->at(0.002);
   EXPECT_DOUBLE_EQ(s.body.pitch.q, 0.35 + 14.8 * 0.002);
   EXPECT_EQ(s.body.pitch.qdd, 0.0);
   EXPECT_DOUBLE_EQ(s.body.x.z(), -0.952 * 0.002);
-  EXPECT_NE(s.angles.theta.qdd, 0.0);  // theta_R still follows the series
+  EXPECT_NE(s.angles.wings.right.theta.qdd, 0.0);  // theta_R still follows the series
 }
 
 }  // namespace

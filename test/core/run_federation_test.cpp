@@ -36,7 +36,7 @@ class Recorder : public StepSink {
   std::uint32_t throw_at = ~0u;
   std::string throw_at_end, end_failure;
   std::vector<CommittedStep> steps;
-  StateHash hash;
+  StateHash hash{true};
   int ends = 0;
 };
 
@@ -58,13 +58,13 @@ Eigen::Vector4d quarterFlap(int steps_per_flap, bool believed) {
   start.x = StartValue{0.0, s.body.v.x(), 0.0};
   start.z = StartValue{0.0, s.body.v.z(), 0.0};
   start.pitch = StartValue{s.body.pitch.q, s.body.pitch.qd, 0.0};
-  start.theta_R = StartValue{s.angles.theta.q, s.angles.theta.qd, 0.0};
+  start.theta_R = StartValue{s.angles.wings.right.theta.q, s.angles.wings.right.theta.qd, 0.0};
   c.motion = std::make_shared<StartMotion>(c.motion, start, c.time.t_start);
   Recorder recorder;
   const RunResult result = fly(c, {&recorder});
   EXPECT_TRUE(result.complete) << result.failure;
   const Interface& end = recorder.steps.back().interface;
-  return {end.body.x.x(), end.body.x.z(), end.body.pitch.q, end.theta_R.q};
+  return {end.body.x.x(), end.body.x.z(), end.body.pitch.q, end.theta.right.q};
 }
 
 TEST(Federation, AReleasedFlightIsOfSecondOrderInTheTimeStep) {
@@ -122,7 +122,7 @@ TEST(Federation, EveryStrategyFliesTheSameFlight) {
     ASSERT_TRUE(result.complete) << result.failure;
     for (std::size_t n = 0; n < r.steps.size(); ++n) {
       const Interface &a = r.steps[n].interface, &b = reference.steps[n].interface;
-      ASSERT_NEAR(a.theta_R.q, b.theta_R.q, 1e-7) << n;
+      ASSERT_NEAR(a.theta.right.q, b.theta.right.q, 1e-7) << n;
       ASSERT_NEAR(a.body.pitch.q, b.body.pitch.q, 1e-7) << n;
       ASSERT_LT((a.body.x - b.body.x).norm(), 1e-7 * c.coupling.length_scale) << n;
     }
@@ -148,7 +148,7 @@ TEST(Federation, NavierStokesFliesTheSameFlightByOperatorAndByFullSolves) {
   int predicted = 0, solved = 0;
   for (std::size_t n = 0; n < full.steps.size(); ++n) {
     const Interface &a = first.steps[n].interface, &b = full.steps[n].interface;
-    ASSERT_NEAR(a.theta_R.q, b.theta_R.q, 1e-7) << n;
+    ASSERT_NEAR(a.theta.right.q, b.theta.right.q, 1e-7) << n;
     ASSERT_NEAR(a.body.pitch.q, b.body.pitch.q, 1e-7) << n;
     ASSERT_LT((a.body.x - b.body.x).norm(), 1e-7 * c.coupling.length_scale) << n;
     predicted += first.steps[n].fluid_evaluations;
@@ -172,9 +172,11 @@ TEST(Federation, ImpulseOfAirAndWeightIsTheChangeOfMomentum) {
       const Eigen::Vector3d relative = Q * rate.cross(a.nu);  // F_B
       p += a.m * (b.v + b.R_IB * (b.Omega_B.cross(a.mu + Q * a.nu) + relative));
     };
-    const Eigen::Vector3d w = wingRate(s.angles);
-    add(insect.right, wingAttitude(insect.beta, s.angles), w);
-    add(insect.left, leftWingAttitude(insect.beta, s.angles), {-w.x(), w.y(), -w.z()});
+    const auto& [right, left] = s.angles.wings;
+    const Eigen::Vector3d w = wingRate(left);
+    add(insect.wings.right.plate, wingAttitude(Side::kRight, insect.beta, right), wingRate(right));
+    add(mirrored(insect.wings.left.plate), wingAttitude(Side::kLeft, insect.beta, left),
+        {-w.x(), w.y(), -w.z()});
     add(insect.abdomen, abdomenAttitude(s.angles), {0.0, s.angles.theta_A.qd, 0.0});
     return p;
   };

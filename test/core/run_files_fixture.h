@@ -59,12 +59,11 @@ inline CommittedStep stepAt(std::uint32_t n) {
   body.v = Eigen::Vector3d(2.0, 0.0, -1.0);
   body.a = Eigen::Vector3d(0.1, 0.2, 0.3);
   body = withPitch(body, {0.1 + 0.01 * n, 1.0, 100.0});
-  s.interface.theta_R = {-0.2 + 0.02 * n, 2.0, 200.0};
-  s.angles.phi = {0.4, 41, 42};
-  s.angles.psi = {0.5, 51, 52};
-  s.angles.theta = s.interface.theta_R;
+  s.interface.theta = {{-0.2 + 0.02 * n, 2.0, 200.0}, {-0.25 + 0.02 * n, 3.0, 300.0}};
+  s.angles.wings.right = {{0.4, 41, 42}, {0.5, 51, 52}, s.interface.theta.right};
+  s.angles.wings.left = {{0.45, 43, 44}, {0.55, 53, 54}, s.interface.theta.left};
   s.angles.theta_A = {0.6, 61, 62};
-  s.guided.rest_angle = 0.0625;
+  s.guided.rest_angle = {0.0625, 0.03125};
   s.guided.wind = {{-1, 0, 0.5}, {-11, 0, 12}};
   s.guidance.phase = 0.1 * n;
   s.guidance.clipped = 3;
@@ -74,10 +73,13 @@ inline CommittedStep stepAt(std::uint32_t n) {
     s.guidance.command.*kCommandTable[k].value = 100.0 + static_cast<double>(k);
     s.guidance.applied.*kCommandTable[k].value = 200.0 + static_cast<double>(k);
   }
-  s.loads.force_pressure = Eigen::Vector3d(1, 2, 3);
-  s.loads.force_friction = Eigen::Vector3d(0.25, 0.5, 0.75);
-  s.loads.moment_pressure = Eigen::Vector3d(4, 5, 6);
-  s.loads.moment_friction = Eigen::Vector3d(0.125, 0.25, 0.375);
+  s.loads.right.force_pressure = Eigen::Vector3d(1, 2, 3);
+  s.loads.right.force_friction = Eigen::Vector3d(0.25, 0.5, 0.75);
+  s.loads.right.moment_pressure = Eigen::Vector3d(4, 5, 6);
+  s.loads.right.moment_friction = Eigen::Vector3d(0.125, 0.25, 0.375);
+  s.loads.left = s.loads.right;
+  s.loads.left.force_pressure *= 10.0;
+  s.loads.left.moment_pressure *= 10.0;
   s.force_I = Eigen::Vector3d(7, 8, 9);
   s.fluid.courant = 0.875;
   s.wall_s = {0.5, 0.25, 0.125};
@@ -95,8 +97,10 @@ inline CommittedStep stepAt(std::uint32_t n) {
     s.fluid.added_mass = 3.0 * Matrix6d::Identity();
     return s;
   }
-  for (std::uint32_t k = 0; k < (n <= 2 ? 1 : 3 + n % 2); ++k)
-    s.iterations.push_back({n, k, k > 2 ? 2u : 1u, {1e-3, 2e-3, 3e-3, 4e-3}, 5e-3, 0.5, 0.7});
+  for (std::uint32_t k = 0; k < (n <= 2 ? 1 : 3 + n % 2); ++k) {
+    s.iterations.push_back({n, k, k > 2 ? 2u : 1u,
+                            {1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3}, 9e-3, 0.5, 0.7});
+  }
   return s;
 }
 

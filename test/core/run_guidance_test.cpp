@@ -59,9 +59,9 @@ TEST_F(GuidedRun, SolversWithoutAnyMotionAnswerTheSame) {
   without.motion = nullptr;
   RunOutputs files(c, out("without"));
   std::array<std::unique_ptr<Participant>, kRoles> owned;
-  Participants all;
-  for (std::size_t i = 0; i < kRoles; ++i) {
-    const Role role = static_cast<Role>(i);
+  Participants all{};
+  for (Role role : rolesOf(c)) {
+    const auto i = static_cast<std::size_t>(role);
     owned[i] = makeParticipant(role, role == Role::kGuidance ? c : without, out("none"));
     all[i] = owned[i].get();
   }

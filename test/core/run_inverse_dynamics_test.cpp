@@ -44,16 +44,17 @@ TEST_F(InverseDynamics, AFreeFlightNeedsNothingAndItsHingeIsFound) {
   const auto rows = freeRows(c);
   ASSERT_GT(rows.size(), 80u);
   const double weight = c.insect.totalMass() * c.gravity;
+  const Wing& hinge = c.insect.wings.right;
   for (const RequiredLoads& row : rows) {
     EXPECT_NEAR(row.force_x, 0.0, 1e-4 * weight);
     EXPECT_NEAR(row.force_z, 0.0, 1e-4 * weight);
     EXPECT_NEAR(row.pitch, 0.0, 1e-4 * weight * 0.01);
-    EXPECT_NEAR(row.wing.y(), -c.insect.kappa * (row.theta_R.q - c.insect.theta_0), 1e-8);
+    EXPECT_NEAR(row.wing.y(), -hinge.kappa * (row.theta_R.q - hinge.theta_0), 1e-8);
   }
   const HingeFit fit = fitHinge(rows);
-  EXPECT_NEAR(fit.kappa, c.insect.kappa, 1e-3 * c.insect.kappa);
-  EXPECT_NEAR(fit.theta_0, c.insect.theta_0, 1e-3);
-  EXPECT_NEAR(fit.damping * 64.0, 0.0, 1e-3 * c.insect.kappa);
+  EXPECT_NEAR(fit.kappa, hinge.kappa, 1e-3 * hinge.kappa);
+  EXPECT_NEAR(fit.theta_0, hinge.theta_0, 1e-3);
+  EXPECT_NEAR(fit.damping * 64.0, 0.0, 1e-3 * hinge.kappa);
   EXPECT_GT(fit.spring_share, 0.999);
 }
 

@@ -23,10 +23,16 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
       "FZ,sub_iterations,courant,phi_dot,phi_ddot,psi_dot,psi_ddot,theta_A_dot,theta_A_ddot,"
       "rest_angle,wx,wy,wz,wax,way,waz,phase,clipped,refused,lost,command_amplitude,"
       "command_flapping_mean,command_frequency,command_deviation_mean,command_rest_angle,"
-      "command_abdomen_mean,command_abdomen_amplitude,applied_amplitude,applied_flapping_mean,"
-      "applied_frequency,applied_deviation_mean,applied_rest_angle,applied_abdomen_mean,"
-      "applied_abdomen_amplitude");
-  const double b = step.interface.body.pitch.q, r = step.interface.theta_R.q;
+      "command_abdomen_mean,command_abdomen_amplitude,command_amplitude_difference,"
+      "command_flapping_difference,command_deviation_difference,command_rest_angle_difference,"
+      "applied_amplitude,applied_flapping_mean,applied_frequency,applied_deviation_mean,"
+      "applied_rest_angle,applied_abdomen_mean,applied_abdomen_amplitude,"
+      "applied_amplitude_difference,applied_flapping_difference,applied_deviation_difference,"
+      "applied_rest_angle_difference,phi_L,phi_L_dot,phi_L_ddot,psi_L,psi_L_dot,psi_L_ddot,"
+      "theta_L,theta_L_dot,theta_L_ddot,rest_angle_L,fx_L,fy_L,fz_L,mx_L,my_L,mz_L,roll,yaw,p,q,"
+      "r");
+  const double b = step.interface.body.pitch.q, r = step.interface.theta.right.q;
+  const double l = step.interface.theta.left.q;
   const std::vector<double> expected = {step.t, step.interface.body.x[0],
                                         0,      step.interface.body.x[2],
                                         2,      0,
@@ -59,10 +65,24 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
                                         101,    102,
                                         103,    104,
                                         105,    106,
+                                        107,    108,
+                                        109,    110,
                                         200,    201,
                                         202,    203,
                                         204,    205,
-                                        206};
+                                        206,    207,
+                                        208,    209,
+                                        210,    0.45,
+                                        43,     44,
+                                        0.55,   53,
+                                        54,     l,
+                                        3,      300,
+                                        0.03125, 10.25,
+                                        20.5,   30.75,
+                                        40.125, 50.25,
+                                        60.375, 0,
+                                        0,      0,
+                                        1,      0};
   const auto row = numbers(rows[2]);
   ASSERT_EQ(row.size(), expected.size());
   for (std::size_t i = 0; i < row.size(); ++i) {
@@ -96,10 +116,12 @@ TEST_F(RunFiles, IterationTableHasARowPerSubIteration) {
   ASSERT_EQ(rows.size(), 1u + 0u + 1u + 1u + 4u);
   EXPECT_EQ(
       rows[0],
-      "step,iteration,t,residual_x,residual_z,residual_theta_B,residual_theta_R,load_residual,"
-      "relaxation,fluid_wall_s,attempt");
+      "step,iteration,t,residual_x,residual_y,residual_z,residual_roll,residual_theta_B,"
+      "residual_yaw,residual_theta_R,residual_theta_L,load_residual,relaxation,fluid_wall_s,"
+      "attempt");
   EXPECT_EQ(numbers(rows[6]),
-            (std::vector<double>{3, 3, stepAt(3).t, 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 0.5, 0.7, 2}));
+            (std::vector<double>{3, 3, stepAt(3).t, 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3,
+                                 9e-3, 0.5, 0.7, 2}));
 }
 
 TEST_F(RunFiles, SummaryHasEveryKeyAndTheRightNumbers) {
@@ -170,19 +192,21 @@ TEST_F(RunFiles, FailedRunSaysSoAndKeepsItsTables) {
 }
 
 TEST(StateHashTest, IsSha256OfTheStatedLayout) {
-  StateHash empty;  // SHA-256 of nothing
+  StateHash empty(true);  // SHA-256 of nothing
   EXPECT_EQ(empty.hex(), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   CommittedStep zero;  // 43 doubles of which only R_IB = identity is not 0
-  StateHash hash;
+  StateHash hash(true);
   hash.add(zero);
   // python3 -c "import hashlib, struct; a = [0.0] * 43;
   //     a[10] = a[14] = a[18] = 1.0; print(hashlib.sha256(struct.pack('<43d', *a)).hexdigest())"
   EXPECT_EQ(hash.hex(), "33210e8c9751d2049822a5297db457238dd783269d0d71f5c61fa0bbc4389767");
 }
 
-TEST(StateHashTest, SeesEveryStateAndNothingElse) {
+class StateHashOf : public ::testing::TestWithParam<bool> {};  // mirrored wings?
+
+TEST_P(StateHashOf, SeesEveryStateAndNothingElse) {
   const auto hashOf = [](const CommittedStep& s) {
-    StateHash hash;
+    StateHash hash(GetParam());
     hash.add(stepAt(0));
     hash.add(s);
     return hash.hex();
@@ -205,10 +229,16 @@ TEST(StateHashTest, SeesEveryStateAndNothingElse) {
   EXPECT_TRUE(changed([&](CommittedStep& o) { bump(o.interface.body.R_IB(2, 0)); }));
   EXPECT_TRUE(changed([&](CommittedStep& o) { bump(o.interface.body.Omega_dot_B.y()); }));
   EXPECT_TRUE(changed([&](CommittedStep& o) { bump(o.interface.body.pitch.qd); }));
-  EXPECT_TRUE(changed([&](CommittedStep& o) { bump(o.interface.theta_R.qdd); }));
-  EXPECT_TRUE(changed([&](CommittedStep& o) { bump(o.loads.force_friction.x()); }));
-  EXPECT_TRUE(changed([&](CommittedStep& o) { bump(o.loads.moment_pressure.z()); }));
+  EXPECT_TRUE(changed([&](CommittedStep& o) { bump(o.interface.theta.right.qdd); }));
+  EXPECT_TRUE(changed([&](CommittedStep& o) { bump(o.loads.right.force_friction.x()); }));
+  EXPECT_TRUE(changed([&](CommittedStep& o) { bump(o.loads.right.moment_pressure.z()); }));
+  const bool both = !GetParam();  // a mirrored left wing is no state of its own
+  EXPECT_EQ(changed([&](CommittedStep& o) { bump(o.interface.theta.left.qdd); }), both);
+  EXPECT_EQ(changed([&](CommittedStep& o) { bump(o.loads.left.force_friction.x()); }), both);
+  EXPECT_EQ(changed([&](CommittedStep& o) { bump(o.loads.left.moment_pressure.z()); }), both);
 }
+
+INSTANTIATE_TEST_SUITE_P(MirroredAndIndependent, StateHashOf, ::testing::Bool());
 
 TEST(Progress, PlainLineAfterEveryTenth) {
   std::ostringstream stream;

@@ -23,7 +23,7 @@ Case tethered(const std::string& grid) {
 TEST(Plan, TellsTheGridAsItWillBe) {
   const Case c = tethered("standard");
   const RunPlan plan = planRun(c, 1);
-  const Grid grid = makeGrid(c.insect.planform, c.grid);
+  const Grid grid = makeGrid(c.insect.wings.right.planform, c.grid);
   EXPECT_EQ(grid.cells(), plan.cells);
   EXPECT_EQ(plan.cells, long(plan.cells_x) * plan.cells_y * plan.cells_z);
   EXPECT_EQ(std::count(grid.wing.begin(), grid.wing.end(), 1), plan.wing_faces);
@@ -31,7 +31,7 @@ TEST(Plan, TellsTheGridAsItWillBe) {
   // Cells of the span's direction between root and tip.
   int rows = 0;
   for (double y : grid.y.centre) {
-    rows += y > c.insect.planform.yRoot() && y < c.insect.planform.yTip();
+    rows += y > c.insect.wings.right.planform.yRoot() && y < c.insect.wings.right.planform.yTip();
   }
   EXPECT_NEAR(rows, plan.cells_per_span, 1.0);
   EXPECT_DOUBLE_EQ(grid.z.face[grid.k_wing + 1], plan.first_height);
@@ -43,7 +43,7 @@ TEST(Plan, CountsTheCellsOfTheStokesLayer) {
   const RunPlan plan = planRun(c, 1);
   const double nu = c.air.mu / c.air.rho, omega = 2 * M_PI / c.time.period;
   EXPECT_NEAR(std::sqrt(2 * nu / omega), plan.stokes_layer, 1e-12);
-  const Grid grid = makeGrid(c.insect.planform, c.grid);
+  const Grid grid = makeGrid(c.insect.wings.right.planform, c.grid);
   const int whole = static_cast<int>(plan.cells_in_layer);
   EXPECT_LE(grid.z.face[grid.k_wing + whole], plan.stokes_layer);
   EXPECT_GT(grid.z.face[grid.k_wing + whole + 1], plan.stokes_layer);
@@ -71,7 +71,7 @@ TEST(Plan, TheFlowStaysBelowTheCourantNumberExpected) {
   double worst = 0;
   for (int n = 0; n <= 120; ++n) {  // through the fastest part of the first stroke
     const PrescribedState s = c.motion->at(n * c.time.dt);
-    const WingMotion m = rightWingMotion(c.insect, s.body, s.angles);
+    const WingMotion m = wingMotion(Side::kRight, c.insect, s.body, s.angles);
     if (n == 0) {
       flow->start(m, c.time.dt);
       continue;
@@ -109,7 +109,8 @@ TEST(Plan, TimeIsThatOfARun) {
 TEST(Plan, AShortWingIsPlannedAtItsOwnResolution) {
   // Aspect ratio 0.33: at 9 cells to a chord it would have three along the span.
   Case c = loadCase("plate_re100", {}, CONFIG_DIR);
-  c.insect.planform = Planform::rectangle(1.0, 0.33, 0.5);
+  for (Side side : kSides)
+    c.insect.wings[side].planform = Planform::rectangle(1.0, 0.33, 0.5);
   const RunPlan plan = planRun(c, 1);
   EXPECT_GT(plan.step_s, 0.0);
   EXPECT_NO_THROW(requirePossible(plan));

@@ -20,7 +20,7 @@ nlohmann::json summaryOf(const Case& c, const std::function<double(std::uint32_t
 
 Case freeCase() {
   Case c = smallCase();  // ten steps a flap, 25 steps, the first ten prescribed
-  c.free.pitch = true;
+  c.free[kPitch] = true;
   return c;
 }
 
@@ -73,7 +73,7 @@ TEST(SummaryTumbled, NamesTheFirstFlapBeyondSixtyDegrees) {
   EXPECT_TRUE(j.at("tumbled_from_flap").is_null());
   EXPECT_EQ(j.at("tumbled_from_step"), 7);
   Case led = c;
-  led.free.pitch = false;  // a motion that turns over is what was asked for
+  led.free[kPitch] = false;  // a motion that turns over is what was asked for
   EXPECT_TRUE(summaryOf(led, beyond(7, 70)).at("tumbled_from_step").is_null());
 }
 

@@ -9,6 +9,12 @@
 namespace monarch_flight {
 namespace testing {
 
+/// The same for both wings: a symmetric flight.
+template <typename T>
+PerWing<T> both(const T& one) {
+  return {one, one};
+}
+
 /// Monarch of the published data set (github.com/fdcl-gwu/FWUAV, matlab/morp_MONARCH.m). The
 /// planform is a rectangle of the same span and area: the dynamics only see masses and inertias.
 inline Insect publishedMonarch() {
@@ -24,6 +30,7 @@ inline Insect publishedMonarch() {
   abdomen.J =
       Eigen::Vector3d(1.87879965e-10, 1.1089084142499997e-08, 1.1089084142499997e-08).asDiagonal();
   abdomen.mu = {-0.007315, 0.0, 0.0};
+  const Wing wing{right, Planform::rectangle(0.0209048, 0.060997, 0.25), 4.07e-5, -0.2};
   Insect insect{"published",
                 false,
                 0.0,
@@ -32,18 +39,11 @@ inline Insect publishedMonarch() {
                 0.00568,
                 0.01738,
                 0.00371,
-                right,
-                right,
                 abdomen,
                 0.4438,
-                4.07e-5,
-                -0.2,
-                Planform::rectangle(0.0209048, 0.060997, 0.25)};
+                {wing, wing}};
   insect.m_B = 1.485e-4;
   insect.J_B = Eigen::Vector3d(5.988708e-10, 2.9481420375e-09, 2.9481420375e-09).asDiagonal();
-  insect.left.nu.y() = -right.nu.y();
-  insect.left.mu.y() = -right.mu.y();
-  insect.left.J(0, 1) = insect.left.J(1, 0) = -right.J(0, 1);
   return insect;
 }
 
@@ -55,13 +55,13 @@ inline Insect largeMonarch() {
   constexpr double kLength = 100.0, kMass = 1e4, kInertia = kMass * kLength * kLength;
   insect.m_B *= kMass;
   insect.J_B *= kInertia;
-  for (Appendage* part : {&insect.right, &insect.left, &insect.abdomen}) {
+  for (Appendage* part : {&insect.wings.right.plate, &insect.wings.left.plate, &insect.abdomen}) {
     part->m *= kMass;
     part->nu *= kLength;
     part->J *= kInertia;
     part->mu *= kLength;
   }
-  insect.kappa = 1.7;
+  for (Side side : kSides) insect.wings[side].kappa = 1.7;
   return insect;
 }
 
@@ -84,9 +84,10 @@ class Random {
     const double a = (*this)(), b = (*this)(), c = (*this)();
     return {a, b, c};
   }
+  /// Symmetric.
   JointAngles angles() {
     const Coordinate phi = coordinate(), psi = coordinate(), theta = coordinate(), A = coordinate();
-    return {phi, psi, theta, A};
+    return {both(WingAngles{phi, psi, theta}), A};
   }
   Loads loads() {
     const Eigen::Vector3d fp = vector(), ff = vector(), mp = vector(), mf = vector();
@@ -94,12 +95,12 @@ class Random {
   }
   /// Any attitude and motion.
   BodyState body() {
-    const JointAngles attitude = angles();
+    const WingAngles attitude = angles().wings.right;
     BodyState body;
     body.x = vector();
     body.v = vector();
     body.a = vector();
-    body.R_IB = wingAttitude(0.0, attitude);
+    body.R_IB = wingAttitude(Side::kRight, 0.0, attitude);
     body.Omega_B = wingRate(attitude);
     body.Omega_dot_B = wingRateDerivative(attitude);
     return body;

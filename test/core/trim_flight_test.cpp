@@ -47,7 +47,7 @@ TEST_F(Trim, PendulumRestsAndItsMultipliersAreExact) {
   EXPECT_NEAR(r.point.state(4), 0.3, 1e-7);
   EXPECT_NEAR(r.point.state(5), 0.0, 1e-5);
   // Newmark's average acceleration turns by 2 atan(w dt / 2) a step, without damping.
-  const double w = std::sqrt(c.insect.kappa / c.insect.right.J(1, 1));
+  const double w = std::sqrt(c.insect.wings.right.kappa / c.insect.wings.right.plate.J(1, 1));
   const double phase = 100.0 * 2.0 * std::atan(0.5 * w * c.time.dt);
   ASSERT_EQ(r.floquet.size(), 2u);
   for (const FloquetMode& mode : r.floquet) {
@@ -106,8 +106,8 @@ TEST_F(Trim, ResultIsACaseThatFliesTheSameFlight) {
   EXPECT_NEAR(release.body.v.z(), r.point.state(1), 1e-12);
   EXPECT_NEAR(release.body.pitch.q, r.point.state(2), 1e-12);
   EXPECT_NEAR(release.body.pitch.qd, r.point.state(3), 1e-9);
-  EXPECT_NEAR(release.angles.theta.q, r.point.state(4), 1e-12);
-  EXPECT_NEAR(release.angles.theta.qd, r.point.state(5), 1e-9);
+  EXPECT_NEAR(release.angles.wings.right.theta.q, r.point.state(4), 1e-12);
+  EXPECT_NEAR(release.angles.wings.right.theta.qd, r.point.state(5), 1e-9);
   // A release within the flap is on the same flight.
   const Case early = caseFromText(trimmedCase(map, options, r, 10, 2), "early", {}, CONFIG_DIR);
   double mean = 0.0;

@@ -35,7 +35,7 @@ const Vector3d kWind(0.3, -0.2, 0.1);  // NED [m/s]
 class Keeper : public StepSink {
  public:
   void onStep(const CommittedStep& step) override {
-    if (step.flow) steps.push_back(step);
+    if (step.flow.right) steps.push_back(step);
   }
   void onReset() override { steps.clear(); }
   void onEnd(const std::string&) override {}
@@ -122,7 +122,7 @@ class Fields : public ::testing::Test {
   }
   static const CommittedStep& last() { return keeper().steps.back(); }
   static WingMotion motion() {
-    return rightWingMotion(theCase().insect, last().interface.body, last().angles);
+    return wingMotion(Side::kRight, theCase().insect, last().interface.body, last().angles);
   }
 
   static vtkSmartPointer<vtkStructuredGrid> grid() {
@@ -141,7 +141,7 @@ class Fields : public ::testing::Test {
 
 TEST_F(Fields, TheGridStandsInTheWorld) {
   const auto g = grid();
-  const FlowField& flow = *last().flow;
+  const FlowField& flow = *last().flow.right;
   int n[3];
   g->GetDimensions(n);
   EXPECT_EQ(static_cast<int>(flow.x.size()), n[0]);
@@ -159,7 +159,7 @@ TEST_F(Fields, TheGridStandsInTheWorld) {
 
 TEST_F(Fields, TheValuesAreTheSolversTurnedIntoTheWorld) {
   const auto g = grid();
-  const FlowField& flow = *last().flow;
+  const FlowField& flow = *last().flow.right;
   ASSERT_EQ(static_cast<vtkIdType>(flow.cells()), g->GetNumberOfCells());
   const Eigen::Matrix3d R = motion().R_IW;
   vtkCellData* data = g->GetCellData();
@@ -180,7 +180,7 @@ TEST_F(Fields, TheValuesAreTheSolversTurnedIntoTheWorld) {
 
 TEST_F(Fields, TheWingsCarryTheLoads) {
   const auto s = wings();
-  const vtkIdType faces = static_cast<vtkIdType>(last().flow->wing.size());
+  const vtkIdType faces = static_cast<vtkIdType>(last().flow.right->wing.size());
   ASSERT_EQ(2 * faces, s->GetNumberOfCells());
   vtkCellData* data = s->GetCellData();
   Vector3d pressure = Vector3d::Zero(), friction = Vector3d::Zero(), left = Vector3d::Zero();
@@ -199,12 +199,12 @@ TEST_F(Fields, TheWingsCarryTheLoads) {
                         tuple(data->GetArray("friction_ventral"), i));
   }
   const Eigen::Matrix3d R = motion().R_IW;
-  const Vector3d expected = world(R * last().loads.force_pressure);
+  const Vector3d expected = world(R * last().loads.right.force_pressure);
   EXPECT_LT((pressure - expected).norm(), 1e-5 * expected.norm());
   EXPECT_LT((left - Vector3d(-expected.x(), expected.y(), expected.z())).norm(),
             1e-5 * expected.norm());  // mirrored: the body's plane of symmetry is east = 0
   // The part along the wing's normal acts at the rim and is not of the faces.
-  const Vector3d along(last().loads.force_friction.x(), last().loads.force_friction.y(), 0);
+  const Vector3d rubbed = last().loads.right.force_friction, along(rubbed.x(), rubbed.y(), 0);
   EXPECT_LT((friction - world(R * along)).norm(), 1e-5 * along.norm());
 }
 

@@ -33,9 +33,11 @@ class Recorded:
             return [row[name], row[name + "_dot"], row[name + "_ddot"]]
 
         level = PrescribedLevel(phi=JointMotion(*joint("phi")), psi=JointMotion(*joint("psi")),
+                                phi_l=JointMotion(*joint("phi_L")), psi_l=JointMotion(*joint("psi_L")),
                                 theta_a=JointMotion(*joint("theta_A")),
-                                rest_angle=row["rest_angle"])
+                                rest_angle=row["rest_angle"], rest_angle_l=row["rest_angle_L"])
         level.interface.theta_r = joint("theta_R")
+        level.interface.theta_l = joint("theta_L")
         return level
 
 

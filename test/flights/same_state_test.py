@@ -15,14 +15,20 @@ COLUMNS = (
     "sub_iterations courant phi_dot phi_ddot psi_dot psi_ddot theta_A_dot theta_A_ddot rest_angle "
     "wx wy wz wax way waz phase clipped refused lost").split()
 COMMANDS = ("amplitude flapping_mean frequency deviation_mean rest_angle abdomen_mean "
-            "abdomen_amplitude").split()
+            "abdomen_amplitude amplitude_difference flapping_difference deviation_difference "
+            "rest_angle_difference").split()
 COLUMNS += [kind + name for kind in ("command_", "applied_") for name in COMMANDS]
+# Of the left wing, as its mirror image, and of a body that leaves its plane.
+LEFT = ("phi_L phi_L_dot phi_L_ddot psi_L psi_L_dot psi_L_ddot theta_L theta_L_dot theta_L_ddot "
+        "rest_angle_L fx_L fy_L fz_L mx_L my_L mz_L").split()
+COLUMNS += LEFT + "roll yaw p q r".split()
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/joint_states", "/diagnostics", "/monarch_flight/case",
     "/monarch_flight/state", "/monarch_flight/odom", "/monarch_flight/path",
     "/monarch_flight/wind", "/monarch_flight/wrench/right_wing", "/monarch_flight/wrench/left_wing",
     "/monarch_flight/wing_pressure", "/monarch_flight/iterations"}
 FILES = ["case.yaml", "checkpoints", "flight.bag", "flight.csv", "iterations.csv", "summary.json"]
+RESIDUALS = "x y z roll theta_B yaw theta_R theta_L".split()
 STEPS, PRESCRIBED, TOLERANCE = 500, 10, 1e-8
 TINY = {"level": "custom", "cells_per_chord": 6, "first_cell": 0.08, "growth_plane": 1.3, "growth_normal": 1.3,
         "far_field": 3, "margin": 0.25, "outer": "rest", "courant_limit": 3}
@@ -103,9 +109,10 @@ class SameState(flying.FlightTest):
 
     def check_guidance(self, flight, dt):
         """Nobody leads: the motion itself, in still air."""
-        for name in COLUMNS[COLUMNS.index("rest_angle"):]:
+        for name in COLUMNS[COLUMNS.index("rest_angle"):COLUMNS.index(LEFT[0])]:
             if name != "phase":
                 self.assertEqual(set(flight[name]), {0.0}, name)
+        self.check_symmetry(flight)
         for n in range(STEPS):
             self.assertAlmostEqual(flight["phase"][n], n / STEPS, delta=1e-12)
             for angle in ("phi", "psi", "theta_A"):
@@ -115,11 +122,23 @@ class SameState(flying.FlightTest):
                 step = 0.5 * dt * (flight[change][n] + flight[change][n + 1])
                 self.assertAlmostEqual(flight[rate][n + 1], flight[rate][n] + step, delta=2e-4)
 
+    def check_symmetry(self, flight):
+        """Mirrored wings: the left one has the numbers of the right one, the body stays in its plane."""
+        for name in LEFT:
+            if name.replace("_L", "") in flight:
+                right = name.replace("_L", "")
+            else:
+                right = "theta_R" + name[len("theta_L"):]
+            self.assertEqual(flight[name], flight[right], name)
+        for name in ("y", "roll", "yaw", "p", "r"):
+            self.assertEqual(set(flight[name]), {0.0}, name)
+        self.assertEqual(flight["q"], flight["theta_B_dot"])
+
     def check_iterations(self, folder):
         columns, rows = flying.table(folder, "iterations.csv")
         last = {row[columns.index("step")]: row for row in rows}
         residuals = [i for i, name in enumerate(columns) if name.startswith("residual")]
-        self.assertEqual(len(residuals), 4)
+        self.assertEqual([columns[i] for i in residuals], ["residual_" + name for name in RESIDUALS])
         for step in range(PRESCRIBED + 1, STEPS + 1):
             for i in residuals:
                 self.assertLessEqual(abs(last[step][i]), TOLERANCE)

@@ -105,9 +105,11 @@ TEST_F(Bag, TheTfTreeAloneGivesTheWings) {
       return Coordinate{a[0], a[1], a[2]};
     };
     const Interface interface = fromMessage(state->interface);
-    const JointAngles angles{triple(state->phi), triple(state->psi), interface.theta_R,
-                             triple(state->theta_a)};
-    const WingMotion wing = rightWingMotion(insect->insect, interface.body, angles);
+    const JointAngles angles{
+        {{triple(state->phi), triple(state->psi), interface.theta.right},
+         {triple(state->phi_l), triple(state->psi_l), interface.theta.left}},
+        triple(state->theta_a)};
+    const WingMotion wing = wingMotion(Side::kRight, insect->insect, interface.body, angles);
     const auto tf =
         buffer.lookupTransform("world_ned", "right_wing", state->header.stamp).transform;
     const Eigen::Quaterniond q(tf.rotation.w, tf.rotation.x, tf.rotation.y, tf.rotation.z);
@@ -156,7 +158,9 @@ TEST_F(Bag, TheTwoWrenchesTogetherAreTheForce) {
   const auto left = all<geometry_msgs::WrenchStamped>(topics::kLeftWrench);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const Interface s = fromMessage(states[i]->interface);
-    const JointAngles angles{{states[i]->phi[0], 0, 0}, {states[i]->psi[0], 0, 0}, s.theta_R, {}};
+    const FlightState& m = *states[i];
+    const WingAngles ours{{m.phi[0], 0, 0}, {m.psi[0], 0, 0}, s.theta.right};
+    const WingAngles theirs{{m.phi_l[0], 0, 0}, {m.psi_l[0], 0, 0}, s.theta.left};
     const double beta = insect->insect.beta;
     const auto vector = [](const geometry_msgs::Vector3& v) {
       return Eigen::Vector3d(v.x, v.y, v.z);
@@ -164,8 +168,9 @@ TEST_F(Bag, TheTwoWrenchesTogetherAreTheForce) {
     EXPECT_EQ("right_wing", right[i]->header.frame_id);
     EXPECT_EQ("left_wing", left[i]->header.frame_id);
     const Eigen::Vector3d force =
-        s.body.R_IB * (wingAttitude(beta, angles) * vector(right[i]->wrench.force) +
-                       leftWingAttitude(beta, angles) * vector(left[i]->wrench.force));
+        s.body.R_IB *
+        (wingAttitude(Side::kRight, beta, ours) * vector(right[i]->wrench.force) +
+         wingAttitude(Side::kLeft, beta, theirs) * vector(left[i]->wrench.force));
     const Eigen::Vector3d recorded(states[i]->force[0], states[i]->force[1], states[i]->force[2]);
     EXPECT_LT((force - recorded).norm(), 1e-12 * (1e-3 + recorded.norm()));
     EXPECT_EQ(right[i]->wrench.torque.y, left[i]->wrench.torque.y);

@@ -39,7 +39,7 @@ Interface anyInterface() {
   out.body.Omega_B = anyVector();
   out.body.Omega_dot_B = anyVector();
   out.body.pitch = anyCoordinate();
-  out.theta_R = anyCoordinate();
+  for (Side side : kSides) out.theta[side] = anyCoordinate();
   return out;
 }
 
@@ -78,7 +78,7 @@ TEST(Conversions, RequestsCrossTheWireBitForBit) {
     request.t = anyNumber();
     request.prescribed = anyPrescribed();
     request.interface = anyInterface();
-    request.loads = anyLoads();
+    for (Side side : kSides) request.loads[side] = anyLoads();
     request.q_threshold = anyNumber();
     request.vortex_limit = i;
     request.want_fields = i % 2 == 1;
@@ -231,7 +231,7 @@ TEST(Conversions, IterationRecordsCrossBitForBit) {
   record.step = 4000000000u;
   record.iteration = 17;
   record.attempt = 2;
-  record.residual = {anyNumber(), anyNumber(), anyNumber(), anyNumber()};
+  for (double& r : record.residual) r = anyNumber();
   record.load_residual = anyNumber();
   record.relaxation = anyNumber();
   record.fluid_wall_s = anyNumber();
@@ -267,7 +267,7 @@ TEST(Conversions, NonFiniteStatesAreSeenInEveryMember) {
   const double bad[] = {std::numeric_limits<double>::quiet_NaN(),
                         std::numeric_limits<double>::infinity()};
   for (double value : bad) {
-    for (int member = 0; member < 8; ++member) {
+    for (int member = 0; member < 9; ++member) {
       Interface interface;
       EXPECT_TRUE(finite(interface));
       Eigen::Vector3d* vectors[] = {&interface.body.x, &interface.body.v, &interface.body.a,
@@ -277,7 +277,9 @@ TEST(Conversions, NonFiniteStatesAreSeenInEveryMember) {
       } else if (member == 5) {
         interface.body.R_IB(1, 2) = value;
       } else {
-        (member == 6 ? interface.body.pitch : interface.theta_R).qdd = value;
+        Coordinate* coordinates[] = {&interface.body.pitch, &interface.theta.right,
+                                     &interface.theta.left};
+        coordinates[member - 6]->qdd = value;
       }
       EXPECT_FALSE(finite(interface)) << member;
     }

@@ -121,10 +121,11 @@ TEST(Urdf, MovesLikeTheFrames) {
   for (std::uint32_t i = 1; i <= 20; ++i) {
     CommittedStep step;
     step.step = i;
-    step.angles = {{angle(generator), 0, 0},
-                   {angle(generator), 0, 0},
-                   {angle(generator), 0, 0},
-                   {angle(generator), 0, 0}};
+    for (Side side : kSides) {  // each wing goes its own way
+      step.angles.wings[side] = {
+          {angle(generator), 0, 0}, {angle(generator), 0, 0}, {angle(generator), 0, 0}};
+    }
+    step.angles.theta_A.q = angle(generator);
     for (const StampedMessage& m : messages.of(step)) {
       const auto* joints = std::get_if<sensor_msgs::JointState>(&m.message);
       if (joints != nullptr) joint_states.publish(*joints);

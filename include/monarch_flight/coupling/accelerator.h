@@ -14,20 +14,22 @@ namespace monarch_flight {
 struct Trial {
   CouplingVector d = CouplingVector::Zero();         ///< guess d^k
   CouplingVector residual = CouplingVector::Zero();  ///< H(d^k) - d^k
-  Loads loads;                                       ///< of the air, for d^k
-  std::optional<LoadOperator> jacobian;              ///< of the loads, where it was asked for
+  PerWing<Loads> loads;                              ///< of the air, for d^k
+  /// Of the loads, where it was asked for.
+  std::optional<PerWing<LoadOperator>> jacobian;
 };
 
 /// What to try next.
 struct Proposal {
   CouplingVector d = CouplingVector::Zero();  ///< d^{k+1}
-  double relaxation = 0.0;     ///< factor applied to the residual; 1: a whole quasi-Newton step
-  std::optional<Loads> loads;  ///< what the air will answer for it, where the strategy knows
+  double relaxation = 0.0;  ///< factor applied to the residual; 1: a whole quasi-Newton step
+  /// What the air will answer for it, where the strategy knows.
+  std::optional<PerWing<Loads>> loads;
 };
 
 /// Strategy that finds d = H(d) of each step from the answers H(d^k) (docs/coupling.md): the loop
-/// does not know which one it uses. The body only pitches and the wing turns about one hinge, so the
-/// increments of both angles are those of the rotation groups themselves; attitudes are never added.
+/// does not know which one it uses. Increments of the attitude are rotation vectors in body axes;
+/// attitudes are never added.
 class Accelerator {
  public:
   virtual ~Accelerator() = default;
@@ -104,8 +106,8 @@ class IqnIls : public Accelerator {
 };
 
 /// Added-mass quasi-Newton. The loads near a trial are L(d) = L^k + K (u(d) - u^k) + M (a(d) - a^k),
-/// u and a being the velocity and acceleration of the wing, K and M their Jacobian (LoadOperator);
-/// flight and wing are the step model. Newton's method solves that coupled problem to the last digit
+/// u and a being the velocity and acceleration of the wing, K and M their Jacobian (LoadOperator),
+/// for each wing whose air is solved; flight and wing are the step model. Newton's method solves that coupled problem to the last digit
 /// without the air; d^{k+1} is its solution and L(d^{k+1}) the predicted loads. K is exact within a
 /// step of a flow that is affine; from step to step it is corrected by Broyden's update with the
 /// trials of each step, and asked for again every `operator_every` steps, after a step that needed
@@ -123,13 +125,16 @@ class AddedMassNewton : public Accelerator {
 
  private:
   void learn(const Trial& trial);
-  Loads predicted(const Trial& trial, const CouplingVector& d) const;
-  Eigen::Matrix4d residualJacobian(const Trial& trial, const CouplingVector& offset) const;
+  void update(Side side, const Trial& trial);
+  PerWing<Loads> predicted(const Trial& trial, const CouplingVector& d) const;
+  CoordinateMatrix residualJacobian(const Trial& trial, const CouplingVector& base) const;
+  CouplingVector toModes(const CouplingVector& d) const;
+  CouplingVector fromModes(const CouplingVector& modes) const;
 
   const StepModel& model_;
   double length_scale_;
   int operator_every_;
-  std::optional<LoadOperator> operator_;
+  std::optional<PerWing<LoadOperator>> operator_;
   std::uint32_t step_ = 0, fetched_ = 0;  // now; when the operator came from the air
   int advances_ = 0;                      // of this step
   bool missed_ = false;                   // the last step needed more than three trials

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "monarch_flight/coupling/accelerator.h"
+#include "monarch_flight/coupling/companion.h"
 #include "monarch_flight/coupling/interface_balance.h"
 #include "monarch_flight/coupling/keeper.h"
 #include "monarch_flight/coupling/model.h"
@@ -22,15 +23,15 @@ struct CoupledOutcome {
   std::string failure;
 };
 
-/// The participants of a run by role; they must outlive it.
+/// The participants of a run by role, null where there is none; they must outlive it.
 using Participants = std::array<Participant*, kRoles>;
 
 /// The implicit coupling of fluid, flight and wing. One step from level n to n+1:
 ///  0. prescribe: guidance says everything that is prescribed at level n+1, once for all attempts
 ///  1. predict: extrapolate the accelerations of the free coordinates, advance by Newmark: guess
 ///  w^0
-///  2. exchange: loads for w^k from the fluid, the body's acceleration from the flight, the wing's
-///     pitch acceleration from the wing: answer w~^k
+///  2. exchange: loads for w^k from the fluid (of both wings at the same time), the body's
+///     acceleration from the flight, the wings' pitch acceleration from the wing: answer w~^k
 ///  3. residual: r^k = w~^k - w^k of each free coordinate, dimensionless; imbalance of inertia, and
 ///     change of the loads against those that the accelerator predicted (else: the last ones),
 ///     relative to their running scales
@@ -87,17 +88,21 @@ class Coordinator {
   bool converge(Accelerator& accelerator, CouplingVector d, RunControl& control, Evaluation& last,
                 CommittedStep& out);
   Evaluation evaluate(const Interface& guess, bool want_operator, CommittedStep& out);
-  void judge(const std::optional<Loads>& expected, Evaluation& evaluation, CommittedStep& out);
+  void judge(const std::optional<PerWing<Loads>>& expected, Evaluation& evaluation,
+             CommittedStep& out);
   void commit(const Evaluation& last, CommittedStep& out);
   void balance(const Evaluation& last, CommittedStep& out) const;
-  void finish(const Loads& loads, CommittedStep& out);
+  void finish(const PerWing<Loads>& loads, CommittedStep& out);
   void abort(std::uint32_t step) noexcept;
   Reply ask(Role role, const Request& request, CommittedStep& out);
+  PerWing<Reply> askAir(const Request& request, CommittedStep& out);
+  void askAll(const Request& request);
+  Reply exchange(Role role, const Request& request);
 
   CouplingVector predictedIncrements() const;
-  double loadChange(const Loads& loads, const Loads& previous) const;
+  double loadChange(const PerWing<Loads>& loads, const PerWing<Loads>& previous) const;
   double imbalance(const CouplingVector& residual, const CouplingVector& increments) const;
-  void updateScales(const Loads& loads);
+  void updateScales(const PerWing<Loads>& loads);
   std::string notConverged(const CommittedStep& step, const std::string& error) const;
   std::string advice(double ratio) const;
 
@@ -111,17 +116,18 @@ class Coordinator {
   StepModel step_model_;
   InterfaceBalance balance_;
   std::unique_ptr<Accelerator> accelerator_, cautious_;  // of first and of second attempts
-  Matrix6d added_mass_ = Matrix6d::Zero();               // of the fluid, for the ratio
-  int operator_cost_ = 0;                                // of the fluid, in evaluations
+  std::unique_ptr<Companion> companion_;                 // asks the left wing's fluid
+  PerWing<Matrix6d> added_mass_;                         // of the fluids, for the ratio
+  int operator_cost_ = 0;                                // of a fluid, in evaluations
   Interface committed_;                                  // level n
   PrescribedState prescribed_;                           // level n
-  Loads loads_;                                          // level n
+  PerWing<Loads> loads_;                                 // level n
   StateSnapshot before_;                   // memory of level n, while a step is solved
   std::array<CouplingVector, 3> history_;  // increments of the levels n, n-1, n-2
   int levels_ = 0;                         // how many of them are known
   double outputs_s_ = 0.0;                 // wall time of the sinks so far
   // Running scales: largest of the recent past, at least what is worth noticing.
-  double force_scale_ = 0.0, moment_scale_ = 0.0;
+  PerWing<double> force_scale_, moment_scale_;
   CouplingVector increment_scales_ = CouplingVector::Zero();
 };
 

@@ -16,7 +16,7 @@ struct GuidanceInput {
   double t = 0.0;              ///< of level n+1 [s]
   double dt = 0.0;             ///< from level n [s]
   Interface interface;         ///< of level n
-  Loads loads;                 ///< of level n, right wing
+  PerWing<Loads> loads;        ///< of level n
   PrescribedState prescribed;  ///< of level n
 };
 

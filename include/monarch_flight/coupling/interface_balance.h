@@ -8,7 +8,7 @@
 
 namespace monarch_flight {
 
-/// Power of the air on the right wing as the two sides of the interface have it [W].
+/// Power of the air on the wings that are solved, as the two sides of the interface have it [W].
 struct InterfacePower {
   double fluid = 0.0;      ///< loads along the wing's motion
   double structure = 0.0;  ///< generalised forces along the generalised velocities
@@ -23,13 +23,14 @@ class InterfaceBalance {
   /// its loads. A bare wing has no dynamics of its own: the structure's side is then the answered
   /// motion.
   InterfacePower power(const PrescribedState& prescribed, const Interface& guess,
-                       const Interface& answer, const Loads& loads) const;
+                       const Interface& answer, const PerWing<Loads>& loads) const;
 
   /// Spectral radius of M_s^-1 M_a over the free coordinates, both wings taking part: M_s their
-  /// structural inertia, M_a that of the air for `added_mass` of one wing (FluidModel::addedMass).
+  /// structural inertia, M_a that of the air for the `added_mass` of each wing
+  /// (FluidModel::addedMass).
   /// 0 where nothing is free.
   double addedMassRatio(const PrescribedState& prescribed, const Interface& interface,
-                        const Matrix6d& added_mass) const;
+                        const PerWing<Matrix6d>& added_mass) const;
 
  private:
   CoupledModel model_;

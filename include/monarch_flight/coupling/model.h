@@ -14,6 +14,8 @@ namespace monarch_flight {
 /// prescribed comes with every request, from guidance (guidance.h).
 struct CoupledModel {
   Insect insect;
+  /// The air of the right wing is solved, the left wing is its mirror image; else that of both.
+  bool mirrored = true;
   FreeCoordinates free = {};
   Newmark newmark = {};      ///< with the time step of the whole run
   double gravity = 9.81;     ///< along +z of NED [m/s^2]
@@ -23,6 +25,8 @@ struct CoupledModel {
   /// motion did before does not belong to its flight. 0: the motion's accelerations do.
   std::uint32_t release = 0;
 
+  /// Wings whose air is solved.
+  Sides sides() const { return {mirrored ? 1U : 2U}; }
   double time(std::uint32_t step) const { return t_start + step * newmark.dt; }
   /// Level n as Newmark leaves it for `step`, level n+1: in the release step with the accelerations
   /// of `next`, an error of second order that is made once; else as committed.

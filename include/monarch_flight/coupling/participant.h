@@ -14,10 +14,20 @@
 
 namespace monarch_flight {
 
-/// The three solvers, in the order in which a sub-iteration calls them, and guidance, which is
-/// asked once a step before the first sub-iteration.
-enum class Role : std::uint8_t { kFluid = 0, kFlight = 1, kWing = 2, kGuidance = 3 };
-inline constexpr std::size_t kRoles = 4;
+/// The solvers, and guidance, which is asked once a step before the first sub-iteration. `kFluid`
+/// has the air of the right wing, `kFluidLeft` that of the left one where it is solved, too: both
+/// are asked at the same time.
+enum class Role : std::uint8_t {
+  kFluid = 0,
+  kFlight = 1,
+  kWing = 2,
+  kGuidance = 3,
+  kFluidLeft = 4
+};
+inline constexpr std::size_t kRoles = 5;
+inline constexpr std::array<Role, kRoles> kAllRoles = {
+    Role::kFluid, Role::kFlight, Role::kWing, Role::kGuidance, Role::kFluidLeft};
+inline constexpr PerWing<Role> kFluids = {Role::kFluid, Role::kFluidLeft};
 const char* roleName(Role role);
 
 /// START: take the initial interface. ITERATE: compute from (committed state, request), keep
@@ -56,7 +66,8 @@ struct Request {
   PrescribedState prescribed;
   /// Guess of level `step` (START: the initial state). To guidance: the committed level.
   Interface interface;
-  Loads loads;  ///< of this sub-iteration; zero to the fluid; of the committed level to guidance
+  /// Of this sub-iteration; zero to the fluid; of the committed level to guidance.
+  PerWing<Loads> loads;
   bool want_operator = false;  ///< ITERATE to the fluid: answer with the loads' Jacobian too
   bool want_flow = false;      ///< COMMIT to the fluid: answer with the whole flow
   bool want_fields = false;    ///< COMMIT to the fluid: answer with surface pressure and vortices
@@ -66,11 +77,11 @@ struct Request {
 
 struct Reply {
   ExchangeKey key;
-  Interface interface;  ///< flight fills body, wing fills theta_R, the rest is as in the request
+  Interface interface;  ///< flight fills body, wing fills theta, the rest is as in the request
   std::optional<PrescribedState> prescribed;  ///< of guidance that owns the motion
   std::optional<WingbeatChange> command;      ///< of guidance that leads the case's own wingbeat
   GuidanceReport guidance;                    ///< filled by guidance
-  Loads loads;                                ///< filled by the fluid
+  Loads loads;  ///< of its wing, filled by the fluid
   std::optional<LoadOperator>
       jacobian;             ///< of the loads, at the request's motion; only when asked for
   FluidReport report;       ///< filled by the fluid

@@ -68,10 +68,11 @@ class SolverParticipant : public Participant {
   Reply last_reply_;
 };
 
-/// The air: loads on the right wing for the guessed interface.
+/// The air: loads on its wing for the guessed interface. The left wing flies in a mirror, so that it
+/// is a right wing for the flow (state.h).
 class FluidParticipant : public SolverParticipant {
  public:
-  FluidParticipant(const CoupledModel& model, std::unique_ptr<FluidModel> fluid);
+  FluidParticipant(Side side, const CoupledModel& model, std::unique_ptr<FluidModel> fluid);
   const FluidModel& fluid() const { return *fluid_; }
 
  private:
@@ -80,8 +81,9 @@ class FluidParticipant : public SolverParticipant {
   void onCommit(const Request& request, Reply& reply) override;
   void memory(StateVisitor& state) override;
   bool sameGuess(const Interface& answered, const Interface& committed) const override;
-  WingMotion wingMotion(const Request& request) const;
+  WingMotion motion(const Request& request) const;
 
+  Side side_;
   std::unique_ptr<FluidModel> fluid_;
 };
 
@@ -99,7 +101,7 @@ class FlightParticipant : public SolverParticipant {
   FlightSolver solver_;
 };
 
-/// The hinge: the wing's pitch for the given loads, the body's answer and the guess of the pitch.
+/// The hinges: the wings' pitch for the given loads, the body's answer and the guess of the pitch.
 class WingParticipant : public SolverParticipant {
  public:
   explicit WingParticipant(const CoupledModel& model);
@@ -110,7 +112,7 @@ class WingParticipant : public SolverParticipant {
   void onCommit(const Request& request, Reply& reply) override;
   bool sameGuess(const Interface& answered, const Interface& committed) const override;
 
-  std::optional<WingPitchSolver> solver_;  // empty when the pitch is prescribed
+  PerWing<std::optional<WingPitchSolver>> solvers_;  // empty when the pitch is prescribed
 };
 
 /// Guidance: what is prescribed at the next level, from all of the committed one. Asked again for

@@ -31,7 +31,7 @@ struct CouplingSettings {
   int reuse_steps = 4;                       ///< earlier steps that iqn_ils learns from, 0 to 20
   int operator_every = 250;  ///< steps between load operators asked of a flow that pays for them
   double tolerance =
-      1e-8;  ///< on each dimensionless displacement residual: x/c, z/c, theta_B, theta_R
+      1e-8;  ///< on each dimensionless displacement residual: lengths over c, angles
   /// On the loads, relative to their running scales: change of the air's force and moment between
   /// sub-iterations, and what inertia is out of balance (the residual of each free acceleration).
   double load_tolerance = 1e-6;
@@ -50,8 +50,8 @@ struct CouplingSettings {
 struct IterationRecord {
   std::uint32_t step = 0, iteration = 0;
   std::uint32_t attempt = 1;  ///< at the step: 1 or 2
-  /// x/c, z/c, theta_B, theta_R; 0 for a prescribed coordinate, infinite where a solver failed
-  std::array<double, 4> residual{};
+  /// In the order of kCoordinateTable; 0 for a prescribed one, infinite where a solver failed.
+  std::array<double, kCoordinates> residual{};
   double load_residual =
       0.0;  ///< relative change of the air's loads and imbalance of inertia; 1 at first
   double relaxation = 0.0;  ///< factor applied after this sub-iteration
@@ -64,9 +64,9 @@ struct CommittedStep {
   double t = 0.0;          ///< [s]
   Interface interface;
   PrescribedState guided;   ///< as guidance prescribed it; what is free has moved from there
-  JointAngles angles;       ///< theta is interface.theta_R
+  JointAngles angles;       ///< theta is that of the interface
   GuidanceReport guidance;  ///< commands taken and applied
-  Loads loads;              ///< right wing
+  PerWing<Loads> loads;     ///< mirrored wings: the same twice
   Eigen::Vector3d force_I =
       Eigen::Vector3d::Zero();  ///< both wings (bare wing: the one wing), NED [N]
   bool prescribed = false;      ///< one of the prescribed start steps (or nothing is free)
@@ -77,16 +77,16 @@ struct CommittedStep {
   /// Spectral radius of M_s^-1 M_a over the free coordinates: inertia of the air over that of the
   /// insect; 0 where nothing is free.
   double added_mass_ratio = 0.0;
-  /// Work that the air does on the right wing in this step: its loads along the motion that the air
+  /// Work that the air does on the solved wings (mirrored: the right one) in this step: its loads along the motion that the air
   /// saw, and its generalised forces along the motion that flight and wing answered [J]. They agree
   /// as far as the step has converged.
   double work_fluid = 0.0, work_structure = 0.0;
-  FluidReport fluid;
-  SurfacePressure surface;                ///< empty unless fields were due
-  std::vector<VortexPoint> vortices;      ///< empty unless fields were due
-  std::shared_ptr<const FlowField> flow;  ///< null unless it was due and there is one
-  std::array<double, kRoles>
-      wall_s{};             ///< computing time of fluid, flight, wing, guidance in this step
+  FluidReport fluid;  ///< of both wings together
+  // The left wing's in the mirror (state.h); mirrored wings: the same twice.
+  PerWing<SurfacePressure> surface;                ///< empty unless fields were due
+  PerWing<std::vector<VortexPoint>> vortices;      ///< empty unless fields were due
+  PerWing<std::shared_ptr<const FlowField>> flow;  ///< null unless it was due and there is one
+  std::array<double, kRoles> wall_s{};             ///< computing time by role in this step
   IgnoredMessages ignored;  ///< of all participants since the run began
   double exchange_s = 0.0;  ///< wall time of the step's exchanges beyond that: messages and waiting
   double coupling_s = 0.0;  ///< wall time of the coordinator's own computing in this step

@@ -11,8 +11,13 @@
 
 namespace monarch_flight {
 
-/// Of x, z, theta_B, theta_R, dimensionless; 0 where a coordinate is prescribed.
-using CouplingVector = Eigen::Vector4d;
+/// Dimensionless; 0 where a coordinate is prescribed.
+using CouplingVector = CoordinateVector;
+
+/// Motion of a wing relative to the air: (v_W; omega_W) and (a_W; alpha_W).
+struct AirMotion {
+  Vector6d velocity, acceleration;
+};
 
 /// One step from level n to n+1 in the coordinator's unknowns: increments d, by which the
 /// accelerations of the free coordinates displace level n+1, q = q(a = 0) + L d. With them the
@@ -26,7 +31,8 @@ class StepModel {
   /// Sets the step: the committed level n and what is prescribed at level n+1 = `step`.
   void begin(const Interface& committed, const PrescribedState& prescribed, std::uint32_t step);
   const PrescribedState& prescribed() const { return prescribed_; }
-  const std::array<bool, 4>& isFree() const { return free_; }
+  const FreeCoordinates& free() const { return model_.free; }
+  Sides sides() const { return model_.sides(); }
   /// Length or 1 over beta dt^2: d times it is an acceleration [m/s^2, rad/s^2].
   const CouplingVector& scales() const { return scales_; }
 
@@ -34,18 +40,16 @@ class StepModel {
   /// Level n+1 for these increments, by Newmark; what is not free follows the prescribed motion.
   Interface interface(const CouplingVector& increments) const;
   /// H(d) - d for these loads, H being the answer of flight and wing to the interface of d.
-  CouplingVector residual(const CouplingVector& increments, const Loads& loads) const;
-  /// (v_W; omega_W) and (a_W; alpha_W) of the interface of d, relative to the wind: what the loads see.
-  void airMotion(const CouplingVector& increments, Vector6d& velocity,
-                 Vector6d& acceleration) const;
+  CouplingVector residual(const CouplingVector& increments, const PerWing<Loads>& loads) const;
+  /// What the loads see of the interface of d: the motion of a wing relative to the wind.
+  AirMotion airMotion(Side side, const CouplingVector& increments) const;
 
  private:
   CoupledModel model_;
   std::uint32_t step_ = 0;
-  std::array<bool, 4> free_;  // x, z, pitch, wing pitch
   CouplingVector scales_;
   FlightSolver flight_;
-  std::optional<WingPitchSolver> wing_;  // empty when the pitch is prescribed
+  PerWing<std::optional<WingPitchSolver>> wings_;  // empty when the pitch is prescribed
   Interface committed_;
   PrescribedState prescribed_;
 };

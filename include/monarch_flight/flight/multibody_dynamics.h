@@ -23,11 +23,8 @@ struct InsectMotion {
   std::array<JointState, 3> joints;
 };
 
-/// Motion of the insect with symmetric wings for a body state and joint angles.
+/// Motion of the insect for a body state and joint angles, each wing in its true axes.
 InsectMotion insectMotion(double beta, const BodyState& body, const JointAngles& angles);
-
-/// Mirror image across the body's x-z plane: loads on the left wing, in its axes, from the right's.
-Loads mirrored(const Loads& right);
 
 /// Dynamics of body, two wings and abdomen in the velocities
 /// xi = (x', Omega, Omega_R, Omega_L, Omega_A) (model.md section 2, Sridhar et al.'s eq. 2):
@@ -47,15 +44,16 @@ class MultibodyDynamics {
   Vector15d bias(const InsectMotion& motion) const;
   /// Generalised forces of gravity.
   Vector15d gravityForce(const InsectMotion& motion) const;
-  /// Generalised forces of the air on both wings, the left one's being the mirror image.
-  Vector15d airForce(const InsectMotion& motion, const Loads& right) const;
+  /// Generalised forces of the air on both wings (the left one's loads in the mirror, state.h).
+  Vector15d airForce(const InsectMotion& motion, const PerWing<Loads>& loads) const;
   /// Generalised forces of one load per appendage (right, left, abdomen), own axes, about the
   /// joint.
   Vector15d appliedForce(const InsectMotion& motion,
                          const std::array<Eigen::Matrix<double, 6, 1>, 3>& loads) const;
   /// Torques that the joints exert on the right wing, the left wing and the abdomen, in their own
   /// axes, so that `motion` happens under these loads [N m].
-  std::array<Eigen::Vector3d, 3> jointTorques(const InsectMotion& motion, const Loads& right) const;
+  std::array<Eigen::Vector3d, 3> jointTorques(const InsectMotion& motion,
+                                              const PerWing<Loads>& loads) const;
 
   double kineticEnergy(const InsectMotion& motion) const;    ///< [J]
   double potentialEnergy(const InsectMotion& motion) const;  ///< of gravity, zero at z = 0 [J]
@@ -65,6 +63,9 @@ class MultibodyDynamics {
   Eigen::Vector3d massCentre(const InsectMotion& motion) const;  ///< F_I [m]
 
  private:
+  /// (x', Omega, Omega_i) to joint velocity and total angular velocity, appendage axes.
+  std::array<Eigen::Matrix<double, 6, 9>, 3> jointMaps(const InsectMotion& motion) const;
+
   Insect insect_;
   std::array<Appendage, 3> appendages_;
   double gravity_;

@@ -50,6 +50,9 @@ struct FluidReport {
   KernelTimes kernel_s{};  ///< wall time by kernel since `start` (0: no grid), of process 0
 };
 
+/// Of two flows: the larger Courant number and divergence, the sum of cells and times.
+FluidReport together(const FluidReport& a, const FluidReport& b);
+
 /// The one contract of all flow models. A model owns a committed state at time level n. Its air is at
 /// rest far away: the motions it is given are relative to the wind (relativeTo, prescribed_motion.h).
 /// `evaluate` is a pure function of (committed state, motion): it may be called any number of times with

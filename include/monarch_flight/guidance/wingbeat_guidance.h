@@ -42,11 +42,13 @@ class WingbeatGuidance : public Guidance {
  private:
   void take(const WingbeatChange& wanted);
   PrescribedState at(double t);
+  Coordinate command(Command both, Side side) const;
 
   std::shared_ptr<const PrescribedMotion> motion_;
   std::shared_ptr<const WindModel> wind_;
   WingbeatSettings settings_;
-  double phi_mean_, abdomen_mean_;  // of the motion [rad]
+  PerWing<double> phi_mean_;
+  double abdomen_mean_;  // of the motion [rad]
   std::unique_ptr<CommandSource> source_;
   std::vector<CommandFilter> filters_;  // by kCommandTable
   std::array<Coordinate, kCommands> applied_{};

@@ -24,6 +24,9 @@ struct WingParameters {
   double theta_0 = 0.0;         ///< rest angle of the hinge [rad]
 };
 
+/// A flat-plate wing of uniform areal density.
+Wing makeWing(const WingParameters& wing, const Planform& planform);
+
 /// Butterfly of body, abdomen (mass centre half its length behind its joint) and two mirrored
 /// flat-plate wings of uniform areal density. Values are taken as they are: ask Insect::problems()
 /// afterwards.

@@ -16,6 +16,14 @@ struct Appendage {
   Eigen::Vector3d mu = Eigen::Vector3d::Zero();    ///< joint in body axes F_B, from the body's mass centre [m]
 };
 
+/// A wing with its hinge; the left one as its mirror image (state.h).
+struct Wing {
+  Appendage plate;       ///< own axes; `mu` is the wing's root
+  Planform planform;     ///< own axes
+  double kappa = 0.0;    ///< hinge stiffness kappa_T [N m/rad]
+  double theta_0 = 0.0;  ///< rest angle of the hinge [rad]
+};
+
 /// Constant model of the insect (or of a bare wing: massless body and abdomen, one wing).
 struct Insect {
   std::string name;
@@ -24,34 +32,41 @@ struct Insect {
   Eigen::Matrix3d J_B = Eigen::Matrix3d::Zero();  ///< about the body's mass centre [kg m^2]
   double body_length = 0.0, body_width = 0.0;        ///< cylinder, for pictures and inertia [m]
   double abdomen_length = 0.0, abdomen_width = 0.0;  ///< [m]
-  Appendage right, left, abdomen;
-  double beta = 0.0;     ///< stroke plane angle [rad]
-  double kappa = 0.0;    ///< hinge stiffness kappa_T [N m/rad]
-  double theta_0 = 0.0;  ///< rest angle of the hinge [rad]
-  Planform planform;     ///< right wing, wing axes
+  Appendage abdomen;
+  double beta = 0.0;  ///< stroke plane angle [rad]
+  PerWing<Wing> wings;  ///< a bare wing: the right one, and a copy
 
-  double totalMass() const { return m_B + right.m + left.m + abdomen.m; }
-  int wings() const { return bare_wing ? 1 : 2; }
+  double totalMass() const;
+  /// Mean chord of both wings [m].
+  double meanChord() const;
+  int wingCount() const { return bare_wing ? 1 : 2; }
   /// Every fault at once, each as "insect/key = value unit: must be ... ; remedy".
   std::vector<std::string> problems() const;
 };
+
+/// Every fault of a butterfly's wing that the case has in `section` of insect.
+std::vector<std::string> wingProblems(const std::string& section, const Wing& wing);
 
 /// Flat plate of uniform areal density: nu, J from the planform's moments. `mu` as given.
 Appendage plateWing(const Planform& planform, double mass, const Eigen::Vector3d& mu);
 /// Mirror image across the body's x-z plane.
 Appendage mirrored(const Appendage& right);
 
-/// Q_R (model.md section 1): right wing axes to body axes.
-Eigen::Matrix3d wingAttitude(double beta, const JointAngles& angles);
-/// Q_L: left wing axes to body axes, mirror image of Q_R.
-Eigen::Matrix3d leftWingAttitude(double beta, const JointAngles& angles);
+/// Mirror image across the body's x-z plane, as air loads on the other wing.
+Loads mirrored(const Loads& loads);
+
+/// Q_R, Q_L (model.md section 1): the wing's true axes to body axes, Q_L being a mirror image.
+Eigen::Matrix3d wingAttitude(Side side, double beta, const WingAngles& angles);
 /// Q_A: abdomen axes to body axes.
 Eigen::Matrix3d abdomenAttitude(const JointAngles& angles);
-/// Omega_R, relative to the body, wing axes [rad/s], and its component-wise derivative [rad/s^2].
-Eigen::Vector3d wingRate(const JointAngles& angles);
-Eigen::Vector3d wingRateDerivative(const JointAngles& angles);
+/// Omega_R, relative to the body, right wing axes [rad/s], and its component-wise derivative
+/// [rad/s^2].
+Eigen::Vector3d wingRate(const WingAngles& angles);
+Eigen::Vector3d wingRateDerivative(const WingAngles& angles);
 
-/// Absolute motion of the right wing's axes for a body state and joint angles.
-WingMotion rightWingMotion(const Insect& insect, const BodyState& body, const JointAngles& angles);
+/// Absolute motion of a wing's axes for a body state and joint angles; the left wing's is seen in a
+/// mirror, the inertial plane y = 0, where it is a right wing.
+WingMotion wingMotion(Side side, const Insect& insect, const BodyState& body,
+                      const JointAngles& angles);
 
 }  // namespace monarch_flight

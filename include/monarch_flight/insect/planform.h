@@ -34,6 +34,10 @@ class Planform {
   /// Scaled so that span (y_tip - y_root) and area take these values: y by one factor, x by another.
   Planform scaledTo(double span, double area) const;
 
+  /// Without its tip: cut off along x so far from the root that `share` of the area is lost, in
+  /// [0, 0.9].
+  Planform withoutTip(double share) const;
+
   double yRoot() const { return y_root_; }
   double yTip() const { return y_tip_; }
   double span() const { return y_tip_ - y_root_; }

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Dense>
 
+#include "monarch_flight/insect/insect.h"
 #include "monarch_flight/insect/state.h"
 
 namespace monarch_flight {
@@ -14,23 +15,30 @@ struct Wind {
 /// The wing's motion as air at rest sees it: relative to the wind. A uniform wind, steady or not,
 /// does nothing else to a wing without volume (Galilean invariance).
 WingMotion relativeTo(const Wind& wind, WingMotion motion);
+/// Mirror image across the inertial plane y = 0.
+Wind mirrored(const Wind& wind);
+/// wingMotion, as air at rest sees it.
+WingMotion wingMotionInAir(Side side, const Insect& insect, const Wind& wind, const BodyState& body,
+                           const JointAngles& angles);
 
 /// Everything that is prescribed at one time level. What the equations of motion move is in it,
 /// too, as the motion description has it: the start, and what the prescribed steps fly.
 struct PrescribedState {
   BodyState body;
   JointAngles angles;
-  double rest_angle = 0.0;  ///< added to the hinge's own rest angle theta_0 [rad]
+  PerWing<double> rest_angle;  ///< added to the hinges' own rest angles theta_0 [rad]
   Wind wind;
 
-  /// The joint angles with this wing pitch.
-  JointAngles anglesWith(const Coordinate& theta_R) const {
+  /// The joint angles with these wing pitches.
+  JointAngles anglesWith(const PerWing<Coordinate>& theta) const {
     JointAngles all = angles;
-    all.theta = theta_R;
+    for (Side side : kSides) all.wings[side].theta = theta[side];
     return all;
   }
   /// Body and wing pitch as prescribed.
-  Interface interface() const { return {body, angles.theta}; }
+  Interface interface() const {
+    return {body, {angles.wings.right.theta, angles.wings.left.theta}};
+  }
 };
 
 /// Motion as a function of time, with consistent first and second derivatives. Immutable, thread-safe.

@@ -16,9 +16,16 @@ struct StartValue {
   }
 };
 
+/// Explicit start of a body that leaves its plane: it turns at a constant rate.
+struct StartAttitude {
+  Eigen::Matrix3d R_IB = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d Omega_B = Eigen::Vector3d::Zero();  ///< body axes [rad/s]
+};
+
 /// Which coordinates start explicitly; the others follow the motion below.
 struct StartValues {
-  std::optional<StartValue> x, z, pitch, theta_R;
+  std::optional<StartValue> x, y, z, pitch, theta_R;
+  std::optional<StartAttitude> attitude;  ///< instead of `pitch`
 };
 
 /// A motion in which some coordinates leave from explicit initial values at a

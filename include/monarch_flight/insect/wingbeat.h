@@ -1,12 +1,13 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <optional>
 
 namespace monarch_flight {
 
 /// What can be commanded of the wingbeat, as a change of what the case's motion does; all zero: the
-/// motion itself. Angles are those of the right wing; with mirrored wings the left one does the
-/// same.
+/// motion itself. Both wings do the same, but for the differences: the right wing gets them on top,
+/// the left one less by as much.
 struct WingbeatChange {
   double amplitude = 0.0;          ///< of flapping, relative: phi swings by (1 + amplitude) times
   double flapping_mean = 0.0;      ///< added to phi [rad]
@@ -15,6 +16,11 @@ struct WingbeatChange {
   double rest_angle = 0.0;         ///< added to the hinge's rest angle theta_0 [rad]
   double abdomen_mean = 0.0;       ///< added to theta_A [rad]
   double abdomen_amplitude = 0.0;  ///< of the abdomen, relative
+  // Between the wings, for wings that are independent.
+  double amplitude_difference = 0.0;      ///< of `amplitude`
+  double flapping_difference = 0.0;       ///< of `flapping_mean` [rad]
+  double deviation_difference = 0.0;      ///< of `deviation_mean` [rad]
+  double rest_angle_difference = 0.0;     ///< of `rest_angle` [rad]
 };
 
 /// The commands one by one, for everything that goes through all of them: index in kCommandTable.
@@ -25,9 +31,28 @@ enum Command : std::size_t {
   kDeviationMeanCommand,
   kRestAngleCommand,
   kAbdomenMeanCommand,
-  kAbdomenAmplitudeCommand
+  kAbdomenAmplitudeCommand,
+  kAmplitudeDifference,
+  kFlappingDifference,
+  kDeviationDifference,
+  kRestAngleDifference
 };
-inline constexpr std::size_t kCommands = 7;
+inline constexpr std::size_t kCommands = 11;
+/// The command that tells the wings apart in this one; nothing: they always do the same.
+inline std::optional<Command> differenceOf(Command both) {
+  switch (both) {
+    case kAmplitudeCommand:
+      return kAmplitudeDifference;
+    case kFlappingMeanCommand:
+      return kFlappingDifference;
+    case kDeviationMeanCommand:
+      return kDeviationDifference;
+    case kRestAngleCommand:
+      return kRestAngleDifference;
+    default:
+      return std::nullopt;
+  }
+}
 struct CommandInfo {
   const char* name;  ///< in case files, messages (`applied`, `command`) and tables
   const char* unit;  ///< "" when relative
@@ -40,7 +65,11 @@ inline constexpr std::array<CommandInfo, kCommands> kCommandTable = {
      {"deviation_mean", "rad", &WingbeatChange::deviation_mean},
      {"rest_angle", "rad", &WingbeatChange::rest_angle},
      {"abdomen_mean", "rad", &WingbeatChange::abdomen_mean},
-     {"abdomen_amplitude", "", &WingbeatChange::abdomen_amplitude}}};
+     {"abdomen_amplitude", "", &WingbeatChange::abdomen_amplitude},
+     {"amplitude_difference", "", &WingbeatChange::amplitude_difference},
+     {"flapping_difference", "rad", &WingbeatChange::flapping_difference},
+     {"deviation_difference", "rad", &WingbeatChange::deviation_difference},
+     {"rest_angle_difference", "rad", &WingbeatChange::rest_angle_difference}}};
 
 /// What guidance has done by a time level.
 struct GuidanceReport {

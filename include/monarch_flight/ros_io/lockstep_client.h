@@ -42,6 +42,7 @@ class RosParticipant : public Participant {
   bool connected() const;
   /// "the fluid node (/monarch_flight/fluid)"
   std::string name() const;
+  Role role() const { return identity_.role; }
 
   /// A sign of life to all solvers, at most five times a second, while nothing is asked of them (a
   /// held run, a long answer of another one): their limit of silence begins anew.

@@ -9,6 +9,7 @@
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/fluid/grid_settings.h"
 #include "monarch_flight/fluid/quasi_steady.h"
+#include "monarch_flight/insect/build.h"
 #include "monarch_flight/insect/insect.h"
 #include "monarch_flight/insect/prescribed_motion.h"
 #include "monarch_flight/insect/wind_model.h"
@@ -41,7 +42,10 @@ struct OutputSettings {
 /// Everything a run needs, checked and complete. Made by loadCase; never half-valid.
 struct Case {
   std::string name;
-  Insect insect{"", true, 0, {}, 0, 0, 0, 0, {}, {}, {}, 0, 0, 0, Planform::rectangle(1, 1, 0)};
+  Insect insect = makeBareWing("", {}, Planform::rectangle(1, 1, 0));
+  bool mirrored = true;  ///< one wing is solved, the other is its mirror image; else both are
+  /// Wings whose air is solved.
+  Sides sides() const { return {mirrored ? 1U : 2U}; }
   Air air;
   std::shared_ptr<const WindModel> wind = std::make_shared<SteadyWind>();
   double gravity = 9.81;         ///< [m/s^2], along +z of NED

@@ -14,8 +14,10 @@
 
 namespace monarch_flight {
 
-/// The flow model that the case names, started by the participant's START request.
-std::unique_ptr<FluidModel> makeFluid(const Case& c);
+/// The flow model that the case names, of one wing, started by the participant's START request.
+std::unique_ptr<FluidModel> makeFluid(const Case& c, Side side = Side::kRight);
+/// Who takes part in a flight of the case.
+std::vector<Role> rolesOf(const Case& c);
 /// What owns the motion of the case. `inbox`: where the commands of a person or a node arrive.
 std::unique_ptr<Guidance> makeGuidance(const Case& c,
                                        std::shared_ptr<CommandInbox> inbox = nullptr);

@@ -13,9 +13,9 @@ namespace monarch_flight {
 constexpr double kPressureRange = 1.0;
 
 /// Both sides of the right wing as triangles coloured by Cp in frame right_wing and, unless a bare
-/// wing, the mirror image in left_wing; the sides lie `lift` [m] off the wing's plane. Locked to
+/// wing, of the left one in left_wing; the sides lie `lift` [m] off the wing's plane. Locked to
 /// the frames: they move with the wings until the next picture.
-visualization_msgs::MarkerArray pressureMarkers(const SurfacePressure& surface,
+visualization_msgs::MarkerArray pressureMarkers(const PerWing<SurfacePressure>& surface,
                                                 const PressureReference& reference, bool bare_wing,
                                                 double lift, const ros::Time& stamp);
 

@@ -5,17 +5,17 @@
 
 namespace monarch_flight {
 
-/// Passive pitch of the right wing on its torsional hinge: the y row, in wing
-/// axes, of the wing's Newton-Euler equation about its root,
+/// Passive pitch of a wing on its torsional hinge (the left one in the mirror, state.h): the y row,
+/// in wing axes, of the wing's Newton-Euler equation about its root,
 ///   [ m nu x (a - g) + J alpha + w x J w ]_y = M_y - kappa (theta - theta_0 - rest_angle),
 /// with the root's absolute acceleration a, the total angular velocity w and acceleration alpha. It
 /// holds for every motion of the body, that of a bare wing from a table included.
 class WingPitchSolver {
  public:
   /// `gravity` along +z of NED [m/s^2]. Throws std::invalid_argument when J_yy is not positive.
-  WingPitchSolver(const Insect& insect, double gravity, const Newmark& newmark);
+  WingPitchSolver(Side side, const Insect& insect, double gravity, const Newmark& newmark);
 
-  /// theta'' [rad/s^2] for the body's motion, the joint angles (angles.theta.qdd is not used), the
+  /// theta'' [rad/s^2] for the body's motion, the joint angles (its own theta'' is not used), the
   /// air's moment about the wing root, wing axes, and a shift of the hinge's rest angle [rad].
   double acceleration(const BodyState& body, const JointAngles& angles, const Loads& loads,
                       double rest_angle = 0.0) const;
@@ -30,6 +30,9 @@ class WingPitchSolver {
   /// All of J_yy theta'' but the spring's moment [N m].
   double momentWithoutSpring(const BodyState& body, JointAngles angles, const Loads& loads) const;
 
+  const Wing& wing() const { return insect_.wings[side_]; }
+
+  Side side_;
   Insect insect_;
   double gravity_;
   Newmark newmark_;
