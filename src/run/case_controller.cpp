@@ -23,8 +23,10 @@ std::vector<std::size_t> readInputs(Section& section, const Faults& faults) {
   const std::size_t before = faults.count();
   const std::string given = section.text("inputs");
   const bool read = section.has("inputs") && faults.count() == before;
-  if (read && given.find_first_not_of(", ") == std::string::npos)
+  if (read && given.find_first_not_of(", ") == std::string::npos) {
     section.fault("inputs", " = '" + given + "': must name a command; give some of " + known());
+    return inputs;
+  }
   std::istringstream names(given);
   for (std::string name; std::getline(names, name, ',');) {
     name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
