@@ -67,8 +67,6 @@ FourierSeries readSway(Section& body, const std::string& key, double frequency) 
   return {};
 }
 
-constexpr char kMirrored[] = " while only one wing is solved and mirrored; ";
-
 /// A lateral velocity in a Fourier motion, or "" (CaseMotion::lateral).
 std::string lateralFault(const Section& body, const Eigen::Vector3d& velocity) {
   if (velocity.y() == 0.0) return "";
