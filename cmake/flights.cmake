@@ -1,5 +1,9 @@
 # Short whole flights through scripts/fly, one file test/flights/*_test.py each. `ctest -L flight` runs them.
 file(GLOB flight_tests CONFIGURE_DEPENDS test/flights/*_test.py)
+# A guidance node of one's own in C++, which own_guidance_test.py flies.
+add_executable(own_guidance_node test/flights/own_guidance_node.cpp)
+target_link_libraries(own_guidance_node PRIVATE monarch_ros_io)
+
 foreach(source ${flight_tests})
   get_filename_component(name ${source} NAME_WE)
   add_test(NAME flight_${name} COMMAND ${PYTHON_EXECUTABLE} ${source} -v)

@@ -11,6 +11,7 @@ constexpr double kRounding = 1e-9;  // of a phase that stands for the beginning 
 }  // namespace
 
 void CommandInbox::post(const WingbeatChange& change, bool at_once) {
+  if (heard_) heard_(change);
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_ = Posted{change, at_once};
 }
@@ -23,6 +24,7 @@ std::optional<CommandInbox::Posted> CommandInbox::take() {
 }
 
 void PostedCommands::start() {
+  inbox_->take();
   waiting_ = false;
   flap_ = kBeforeAll;
 }

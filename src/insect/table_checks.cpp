@@ -5,49 +5,14 @@
 #include <cmath>
 #include <sstream>
 
-#include "monarch_flight/math/errors.h"
+#include "insect/smooth_spline.h"
 
 namespace monarch_flight {
 namespace {
 
-constexpr double kGapFactor = 1.5;
 constexpr double kUnitTolerance = 1e-4;
 constexpr int kFirstQuaternion = 4;  // columns of a table of wings
 constexpr int kFirstAngle = 4;       // columns of a table of bodies
-
-void checkFinite(const NumericTable& table, std::vector<std::string>& faults) {
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    for (std::size_t k = 0; k < table.columns.size() && faults.size() < kMostTableFaults; ++k) {
-      if (!std::isfinite(table.rows[i][k])) {
-        faults.push_back(tablePlace(table, i, table.columns[k]) +
-                         " is not a finite number; correct it");
-      }
-    }
-  }
-}
-
-void checkTimes(const NumericTable& table, std::vector<std::string>& faults) {
-  std::vector<double> spacing;
-  for (std::size_t i = 1; i < table.rows.size(); ++i) {
-    spacing.push_back(table.rows[i][0] - table.rows[i - 1][0]);
-  }
-  std::vector<double> sorted = spacing;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const double median = sorted[sorted.size() / 2];
-  for (std::size_t i = 0; i < spacing.size() && faults.size() < kMostTableFaults; ++i) {
-    std::ostringstream text;
-    text.precision(9);
-    text << tablePlace(table, i + 1, "t") << " = " << table.rows[i + 1][0] << " s: ";
-    if (!(spacing[i] > 0.0)) {
-      text << "must be > " << table.rows[i][0] << " s of the row before; time must not go back";
-      faults.push_back(text.str());
-    } else if (median > 0.0 && spacing[i] > kGapFactor * median) {
-      text << "gap of " << spacing[i] << " s: must be <= " << kGapFactor
-           << " times the usual spacing of " << median << " s; fill in the missing rows";
-      faults.push_back(text.str());
-    }
-  }
-}
 
 /// Checks unit length, and normalises.
 void checkLengths(NumericTable& table, std::vector<std::string>& faults) {
@@ -81,10 +46,6 @@ void checkTurns(const NumericTable& table, std::vector<std::string>& faults) {
 
 }  // namespace
 
-std::string tablePlace(const NumericTable& table, std::size_t row, const std::string& column) {
-  return table.name + ": row " + std::to_string(row + 1) + ", column " + column;
-}
-
 void makeContinuous(NumericTable& table, TableKind kind) {
   for (std::size_t i = 1; i < table.rows.size(); ++i) {
     const std::vector<double>& before = table.rows[i - 1];
@@ -103,9 +64,7 @@ void makeContinuous(NumericTable& table, TableKind kind) {
 }
 
 std::vector<std::string> checkTable(NumericTable& table, TableKind kind, double length) {
-  std::vector<std::string> faults;
-  checkFinite(table, faults);
-  if (faults.empty()) checkTimes(table, faults);
+  std::vector<std::string> faults = timeTableFaults(table, SmoothSpline::kLeastSamples);
   if (faults.empty() && kind == TableKind::kWing) checkLengths(table, faults);
   if (!faults.empty()) return faults;
   makeContinuous(table, kind);

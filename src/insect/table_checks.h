@@ -2,15 +2,11 @@
 #include <string>
 #include <vector>
 
+#include "insect/time_table.h"
 #include "monarch_flight/insect/numeric_table.h"
 #include "monarch_flight/insect/table_motion.h"
 
 namespace monarch_flight {
-
-constexpr std::size_t kMostTableFaults = 10;
-
-/// "<table>: row 7, column phi", the first row being row 1.
-std::string tablePlace(const NumericTable& table, std::size_t row, const std::string& column);
 
 /// Makes the signs of quaternions and the turns of angles continuous: q and -q, and angles a whole
 /// turn apart, are the same attitude. An angle changes by at most pi from row to row.

@@ -40,10 +40,6 @@ const std::vector<std::string>& TableMotion::columnsOf(TableKind kind) {
 TableMotion::TableMotion(const NumericTable& given, TableKind kind, double length) : kind_(kind) {
   NumericTable table = given.select(columnsOf(kind));
   const std::size_t n = table.rows.size();
-  if (n < static_cast<std::size_t>(SmoothSpline::kLeastSamples)) {
-    throw InputError(table.name + ": " + std::to_string(n) + " rows: must be >= " +
-                     std::to_string(SmoothSpline::kLeastSamples) + "; give more rows");
-  }
   const std::vector<std::string> faults = checkTable(table, kind, length);
   if (!faults.empty()) throw InputError(faults);
 

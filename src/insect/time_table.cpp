@@ -8,17 +8,13 @@ namespace monarch_flight {
 namespace {
 
 constexpr double kGapFactor = 1.5;
-constexpr std::size_t kMostFaults = 10;
-
-std::string place(const NumericTable& table, std::size_t row, const std::string& column) {
-  return table.name + ": row " + std::to_string(row + 1) + ", column " + column;
-}
 
 void checkFinite(const NumericTable& table, std::vector<std::string>& faults) {
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    for (std::size_t k = 0; k < table.columns.size() && faults.size() < kMostFaults; ++k) {
+    for (std::size_t k = 0; k < table.columns.size() && faults.size() < kMostTableFaults; ++k) {
       if (std::isfinite(table.rows[i][k])) continue;
-      faults.push_back(place(table, i, table.columns[k]) + " is not a finite number; correct it");
+      faults.push_back(tablePlace(table, i, table.columns[k]) +
+                       " is not a finite number; correct it");
     }
   }
 }
@@ -31,10 +27,10 @@ void checkTimes(const NumericTable& table, std::vector<std::string>& faults) {
   std::vector<double> sorted = spacing;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
   const double median = sorted[sorted.size() / 2];
-  for (std::size_t i = 0; i < spacing.size() && faults.size() < kMostFaults; ++i) {
+  for (std::size_t i = 0; i < spacing.size() && faults.size() < kMostTableFaults; ++i) {
     std::ostringstream text;
     text.precision(9);
-    text << place(table, i + 1, "t") << " = " << table.rows[i + 1][0] << " s: ";
+    text << tablePlace(table, i + 1, "t") << " = " << table.rows[i + 1][0] << " s: ";
     if (!(spacing[i] > 0.0)) {
       text << "must be > " << table.rows[i][0] << " s of the row before; time must not go back";
       faults.push_back(text.str());
@@ -47,6 +43,10 @@ void checkTimes(const NumericTable& table, std::vector<std::string>& faults) {
 }
 
 }  // namespace
+
+std::string tablePlace(const NumericTable& table, std::size_t row, const std::string& column) {
+  return table.name + ": row " + std::to_string(row + 1) + ", column " + column;
+}
 
 std::vector<std::string> timeTableFaults(const NumericTable& table, std::size_t least) {
   const std::size_t n = table.rows.size();

@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "monarch_flight/guidance/command_remarks.h"
 #include "monarch_flight/ros_io/conversions.h"
 #include "monarch_flight/ros_io/flight_control.h"
 #include "monarch_flight/ros_io/flight_run.h"
@@ -84,7 +85,10 @@ int CoordinatorNode::fly() {
 std::unique_ptr<Participant> CoordinatorNode::makeGuidance(const std::string& checkpoints) {
   const GuidanceKind kind = case_.guidance.kind;
   if (kind == GuidanceKind::kCommands || kind == GuidanceKind::kNode)
-    inbox_ = std::make_shared<CommandInbox>();
+    inbox_ = std::make_shared<CommandInbox>(
+        [remarks = CommandRemarks(case_.guidance.wingbeat.limits)](const auto& wanted) mutable {
+          for (const std::string& remark : remarks.on(wanted)) ROS_WARN("%s", remark.c_str());
+        });
   auto own = makeParticipant(Role::kGuidance, case_, checkpoints, inbox_);
   if (kind == GuidanceKind::kNode) {
     own_ = std::move(own);

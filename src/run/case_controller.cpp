@@ -18,9 +18,16 @@ std::string known() {
 }
 
 /// "amplitude, deviation_mean".
-std::vector<std::size_t> readInputs(Section& section) {
+std::vector<std::size_t> readInputs(Section& section, const Faults& faults) {
   std::vector<std::size_t> inputs;
-  std::istringstream names(section.text("inputs"));
+  const std::size_t before = faults.count();
+  const std::string given = section.text("inputs");
+  const bool read = section.has("inputs") && faults.count() == before;
+  if (read && given.find_first_not_of(", ") == std::string::npos) {
+    section.fault("inputs", " = '" + given + "': must name a command; give some of " + known());
+    return inputs;
+  }
+  std::istringstream names(given);
   for (std::string name; std::getline(names, name, ',');) {
     name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
     const auto found = std::find_if(kCommandTable.begin(), kCommandTable.end(),
@@ -83,6 +90,16 @@ std::vector<SetPoint> readSetPoints(Section section) {
   return points;
 }
 
+/// Unknown keys and inputs decide what all other keys mean, so they are told first and alone.
+bool namesAreKnown(Section& section, const Faults& faults) {
+  const std::size_t before = faults.count();
+  for (const char* key :
+       {"samples", "inputs", "time_constant", "set_points", "slew", "lost", "table", "gains"})
+    section.take(key);
+  section.finish();
+  return faults.count() == before;
+}
+
 /// What the rest of the case must be for the law to be flown.
 void checkAgainst(const Case& c, const ControllerSettings& s, Section& section) {
   const double steps = c.time.stepsPerFlap();
@@ -105,9 +122,12 @@ void checkAgainst(const Case& c, const ControllerSettings& s, Section& section) 
 
 std::optional<ControllerSettings> readController(Section section, const Case& c, Faults& faults) {
   const std::size_t before = faults.count();
+  if (!namesAreKnown(section, faults)) return std::nullopt;
   ControllerSettings s;
   s.samples = section.integer("samples", "10 is usual; the gains belong to it");
-  s.inputs = readInputs(section);
+  const std::size_t before_inputs = faults.count();
+  s.inputs = readInputs(section, faults);
+  if (faults.count() > before_inputs) return std::nullopt;
   s.time_constant = section.number(
       "time_constant", {Bound::kPositive, "flaps", "it is that for which the gains were made"});
   s.wing_pitch = c.free[kThetaR];
@@ -121,7 +141,6 @@ std::optional<ControllerSettings> readController(Section section, const Case& c,
   lost.finish();
   s.table = readTable(section.section("table"), m, static_cast<std::size_t>(s.states()));
   readGains(section.section("gains"), m, s);
-  section.finish();
   if (faults.count() > before) return std::nullopt;
   checkAgainst(c, s, section);
   faults.add(s.problems());

@@ -5,6 +5,7 @@
 #include "monarch_flight/guidance/replay_guidance.h"
 #include "monarch_flight/math/errors.h"
 #include "run/case_controller.h"
+#include "run/case_document.h"
 #include "run/case_parts.h"
 
 namespace monarch_flight {
@@ -99,6 +100,17 @@ const char* guidanceName(GuidanceKind kind) {
   return "replay";
 }
 
+std::array<CommandLimits, kCommands> defaultCommandLimits(const std::string& config_dir) {
+  const std::string path = config_dir + "/defaults.yaml";
+  Faults faults;
+  Section defaults(caseFile(path), "", faults);
+  Section section = defaults.section("guidance");
+  WingbeatSettings settings;
+  readLimits(section, 1.0, settings);
+  faults.throwIfAny(path);
+  return settings.limits;
+}
+
 GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults) {
   GuidanceSettings settings;
   const std::string kind = section.choice("type", kindNames());
@@ -153,7 +165,7 @@ void checkReplay(const Case& c, const NumericTable& table, Faults& faults) {
   check("refused", 0.0, kMostCounted);
   check("lost", 0.0, 1.0);
   if (c.insect.bare_wing) return;
-  check("wy", 0.0, 0.0);  // only one wing is solved and mirrored
+  check("wy", 0.0, 0.0);  // as in kMirrored
   check("way", 0.0, 0.0);
 }
 

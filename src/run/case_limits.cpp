@@ -12,7 +12,6 @@ namespace {
 // In a natural period of the hinge: theta_R is then 10 % off (docs/case_files.md, time).
 constexpr double kLeastSteps = 10.0;
 constexpr double kMostTurn = 1.0;  // of the wing in a step [rad]: six steps in a turn
-constexpr char kMirrored[] = " m/s: must be 0 while only one wing is solved and mirrored, unless wings is independent; ";
 
 /// How to have steps of at most `dt` [s].
 std::string shorterSteps(const Case& c, double dt) {
@@ -64,8 +63,8 @@ void checkMirrored(const Case& c, const CaseMotion& motion, const InitialValues&
   if (c.insect.bare_wing || !c.mirrored) return;
   if (!motion.lateral.empty()) faults.add(motion.lateral);
   if (initial.velocity && initial.velocity->y() != 0.0) {
-    faults.add("initial/velocity[1] = " + exactText(initial.velocity->y()) + kMirrored +
-               "set it to 0");
+    faults.add("initial/velocity[1] = " + exactText(initial.velocity->y()) +
+               " m/s: must be 0" + kMirrored + "set it to 0");
   }
   for (const auto& [name, i] : {std::pair{"y", kY}, {"roll", kRoll}, {"yaw", kYaw}}) {
     if (c.free[i])

@@ -67,13 +67,11 @@ FourierSeries readSway(Section& body, const std::string& key, double frequency) 
   return {};
 }
 
-constexpr char kMirrored[] = " while only one wing is solved and mirrored; ";
-
 /// A lateral velocity in a Fourier motion, or "" (CaseMotion::lateral).
 std::string lateralFault(const Section& body, const Eigen::Vector3d& velocity) {
   if (velocity.y() == 0.0) return "";
   return body.pathOf("velocity") + "[1] = " + exactText(velocity.y()) + " m/s: must be 0" +
-         kMirrored + "set it to 0, or choose insect/kind bare_wing";
+         kMirrored + "set it to 0, or choose wings independent";
 }
 
 /// The first row of a table that lies further from the plane of the first one than rounding, or "".
@@ -84,7 +82,7 @@ std::string lateralFault(const NumericTable& table, double chord) {
     if (std::abs(y[i] - y[0]) <= kRounding * chord) continue;
     return table.name + ": row " + std::to_string(i + 1) + ", column y = " + exactText(y[i]) +
            " m: must stay " + exactText(y[0]) + " m" + kMirrored +
-           "keep it there, or choose insect/kind bare_wing";
+           "keep it there, or choose wings independent";
   }
   return "";
 }

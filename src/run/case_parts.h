@@ -12,6 +12,9 @@
 
 namespace monarch_flight {
 
+/// Why a lateral value is refused: behind what it must be, before the remedy.
+inline constexpr char kMirrored[] = " while only one wing is solved and mirrored; ";
+
 /// The motion of a case before explicit start values are laid over it.
 struct CaseMotion {
   std::shared_ptr<const PrescribedMotion> motion;  ///< null when faulty

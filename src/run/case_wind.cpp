@@ -6,15 +6,17 @@
 namespace monarch_flight {
 namespace {
 
-constexpr char kMirrored[] =
-    " m/s: must be 0 while only one wing is solved and mirrored; set it to 0, or choose "
-    "wings independent";
+/// Of a wind from the side.
+std::string sideFault(double wind) {
+  return " = " + exactText(wind) + " m/s: must be 0" + kMirrored +
+         "set it to 0, or choose wings independent";
+}
 
 /// A velocity, of which `mirrored` forbids y.
 Eigen::Vector3d readVelocity(Section& section, const std::string& key, bool mirrored) {
   const Eigen::Vector3d wind_I = section.vector3(key, "m/s");
   if (mirrored && wind_I.y() != 0.0) {
-    section.fault(key, "[1] = " + exactText(wind_I.y()) + kMirrored);
+    section.fault(key, "[1]" + sideFault(wind_I.y()));
   }
   return wind_I;
 }
@@ -59,7 +61,7 @@ void checkSide(const NumericTable& table, Faults& faults) {
   for (std::size_t i = 0; i < side.size(); ++i) {
     if (side[i] == 0.0) continue;
     faults.add(table.name + ": row " + std::to_string(i + 1) +
-               ", column wy = " + exactText(side[i]) + kMirrored);
+               ", column wy" + sideFault(side[i]));
     return;
   }
 }

@@ -42,10 +42,13 @@ void Checkpoints::choose(const Case& c, const std::string& out) {
     resumption.refused.push_back(why);
     refused_.push_back(step);
   }
-  std::vector<std::string> faults = {"resume = " + out + ": " + files_.folder() +
-                                     " holds no checkpoint to go on from; give the folder of a "
-                                     "run, or start a new flight with out:="};
+  if (resumption.refused.empty())
+    throw InputError("resume = " + out + ": " + files_.folder() +
+                     " holds no checkpoint to go on from; give the folder of a run, or start a new "
+                     "flight with out:=");
+  std::vector<std::string> faults;  // the reasons first: they say what to do
   for (const std::string& why : resumption.refused) faults.push_back("resume: " + why);
+  faults.push_back("resume = " + out + ": so none of its checkpoints can be used");
   throw InputError(faults);
 }
 

@@ -55,6 +55,7 @@ void printControlled(std::ostream& out, const ControlDesign& design,
 int runControl(TrimCommand command, const std::string& config_dir, std::ostream& out) {
   requireNew(command.out, {""});
   ControlOptions& options = *command.control;
+  options.limits = ControlOptions::usualLimits(config_dir);
   CaseOverrides own = command.overrides;  // the case keeps its own air
   own.erase("fluid");
   const Case written = loadCase(command.case_name, own, config_dir);

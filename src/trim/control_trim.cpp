@@ -89,9 +89,20 @@ NewtonSettings searchSettings(const ControlOptions& options, bool known) {
 
 double commandScale(std::size_t command) {
   constexpr double kDegree = M_PI / 180.0;
-  constexpr double kScales[kCommands] = {
-      0.1, 10.0 * kDegree, 0.1, 5.0 * kDegree, 10.0 * kDegree, 15.0 * kDegree, 0.5};
-  return kScales[command];
+  switch (command) {
+    case kAmplitudeCommand:
+    case kFrequencyCommand:
+      return 0.1;
+    case kDeviationMeanCommand:
+      return 5.0 * kDegree;
+    case kFlappingMeanCommand:
+    case kRestAngleCommand:
+      return 10.0 * kDegree;
+    case kAbdomenMeanCommand:
+      return 15.0 * kDegree;
+    default:
+      return 0.5;  // kAbdomenAmplitudeCommand
+  }
 }
 
 VectorXd scaled(const FlapState& state, Index n) {
@@ -108,13 +119,10 @@ FlapState with(FlapState state, const VectorXd& components) {
 
 int controlStates(const Case& c) { return c.free[kThetaR] ? 6 : 4; }
 
-std::array<CommandLimits, kCommands> ControlOptions::usualLimits() {
-  constexpr double kDegree = M_PI / 180.0;
-  const double sizes[kCommands] = {0.25,           25.0 * kDegree, 0.25, 6.0 * kDegree,
-                                   15.0 * kDegree, 30.0 * kDegree, 1.0};
-  std::array<CommandLimits, kCommands> limits;
-  for (std::size_t i = 0; i < kCommands; ++i) limits[i] = {-sizes[i], sizes[i], 20.0 * sizes[i]};
-  limits[3].low = -10.0 * kDegree;  // more of it for descent
+std::array<CommandLimits, kCommands> ControlOptions::usualLimits(const std::string& config_dir) {
+  constexpr double kQuick = 20.0;  // of the upper limit a flap: the law's filters are fast
+  std::array<CommandLimits, kCommands> limits = defaultCommandLimits(config_dir);
+  for (CommandLimits& l : limits) l.rate = kQuick * l.high;
   return limits;
 }
 

@@ -11,8 +11,7 @@
 namespace monarch_flight {
 namespace {
 
-constexpr std::size_t kFrequency = 2;  // in kCommandTable
-constexpr double kUnlimited = 1e6;     // of a command, and of its rate
+constexpr double kUnlimited = 1e6;  // of a command, and of its rate
 
 /// Sets filters and commands by their names, and leaves the rest.
 class Preset : public StateVisitor {
@@ -144,9 +143,9 @@ FlapState PhaseMap::prescribedState(int phase) const {
 PhaseFlight PhaseMap::fly(int phase, const FlapState& s, const WingbeatStart& wingbeat,
                           int intervals, const FlapState* rates) const {
   const double flaps = static_cast<double>(intervals) / samples_;
-  const double slowest = 1.0 + std::min({0.0, wingbeat.filters[kFrequency].q,
-                                         wingbeat.command.*kCommandTable[kFrequency].value});
-  const bool even = slowest == 1.0 && wingbeat.filters[kFrequency].qd == 0.0;
+  const double slowest = 1.0 + std::min({0.0, wingbeat.filters[kFrequencyCommand].q,
+                                         wingbeat.command.frequency});
+  const bool even = slowest == 1.0 && wingbeat.filters[kFrequencyCommand].qd == 0.0;
   const auto steps =
       std::ceil(flaps * case_.time.stepsPerFlap() / slowest - 1e-6) + (even ? 0.0 : 2.0);
   LevelRecorder levels;

@@ -8,6 +8,7 @@
 #include "core/coupling_fakes.h"
 #include "monarch_flight/coupling/interface_values.h"
 #include "monarch_flight/guidance/command_inbox.h"
+#include "monarch_flight/guidance/command_remarks.h"
 #include "monarch_flight/guidance/wingbeat_guidance.h"
 
 namespace monarch_flight {
@@ -230,6 +231,41 @@ TEST(CommandInbox, ANewCommandWaitsForTheNextFlapUnlessAtOnce) {
   inbox->post({-0.1}, true);
   led.step();
   EXPECT_EQ(led.guidance.report().command.amplitude, -0.1);
+}
+
+TEST(CommandInbox, ARunThatIsSetBackIsNotLedByEarlierCommands) {
+  auto inbox = std::make_shared<CommandInbox>();
+  Led led(std::make_unique<PostedCommands>(inbox));
+  inbox->post({0.1}, false);
+  for (int i = 0; i < 10; ++i) led.step();  // waits for the next flap
+  inbox->post({0.2}, true);                 // waits in the box
+  led.level = led.guidance.start(kStart);
+  led.n = 0;
+  for (int i = 0; i < 2000; ++i) led.step();
+  EXPECT_EQ(led.guidance.report().command.amplitude, 0.0);
+  inbox->post({0.2}, true);
+  led.step();
+  EXPECT_EQ(led.guidance.report().command.amplitude, 0.2);
+}
+
+TEST(CommandRemarks, TellEachCommandAndKindOnce) {
+  CommandRemarks remarks(settings().limits);
+  EXPECT_TRUE(remarks.on({0.25}).empty());
+  WingbeatChange wide;
+  wide.amplitude = 0.5;
+  wide.deviation_mean = -0.75;
+  const std::vector<std::string> cut = remarks.on(wide);
+  ASSERT_EQ(cut.size(), 2u);
+  EXPECT_EQ(cut[0].find("command amplitude = 0.5: is cut to 0.25; must be within [-0.25"), 0u)
+      << cut[0];
+  EXPECT_EQ(cut[1].find("command deviation_mean = -0.75 rad: is cut to -0.25"), 0u) << cut[1];
+  EXPECT_TRUE(remarks.on(wide).empty());
+  wide.amplitude = std::numeric_limits<double>::quiet_NaN();
+  wide.rest_angle = 2.0;  // not cut: the message is refused as a whole
+  const std::vector<std::string> refused = remarks.on(wide);
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_EQ(refused[0].find("command amplitude = nan: must be a finite number"), 0u) << refused[0];
+  EXPECT_TRUE(remarks.on(wide).empty());
 }
 
 }  // namespace

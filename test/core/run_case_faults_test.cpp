@@ -57,7 +57,8 @@ extra: 1
 
 TEST_F(CaseTest, FilesAndNames) {
   expectHas(faults("nope"),
-            "one of climb, climb_controlled, climb_fwuav, climb_printed, climb_standard, "
+            "one of climb, climb_controlled, climb_fwuav, climb_printed, climb_settled, "
+            "climb_standard, "
             "climb_trimmed, hinge, measured_motion, passive_pitch, plate_re100, tethered_fwuav");
   expectHas(faults("/nonexistent/case.yaml"), "/nonexistent/case.yaml does not exist");
   expectHas(faults(write("syntax.yaml", "a: [1\n")), "is not YAML");

@@ -31,6 +31,8 @@ TEST_F(Checkpointed, AChangedCaseIsRefusedWithItsKey) {
   const std::string why = problemOfResuming(climb({{"steps_per_flap", "200"}}), "cut");
   expectHas(why, "step_0000000020: is of another case: time/steps_per_flap: 100 -> 200");
   expectHas(why, "step_0000000010: is of another case");
+  expectHas(why.substr(0, why.find('\n')), "is of another case");  // the reason comes first
+  expectHas(why, "resume = " + out("cut") + ": so none of its checkpoints can be used");
   expectHas(problemOfResuming(climb(), "nowhere"), "holds no checkpoint to go on from");
 }
 

@@ -28,12 +28,27 @@ class Meandering : public CommandSource {
   double sum_ = 0.0;
 };
 
+/// The same, until it fails in a step.
+class Failing : public Meandering {
+ public:
+  explicit Failing(std::uint32_t step) : step_(step) {}
+  std::optional<WingbeatChange> next(const WingbeatLevel& level) override {
+    const auto change = Meandering::next(level);
+    if (level.level.step == step_) throw NumericalError("the leader has lost its way");
+    return change;
+  }
+
+ private:
+  std::uint32_t step_;
+};
+
 class GuidedRun : public Checkpointed {
  protected:
-  /// Solvers of `c` and guidance led by Meandering.
+  /// Solvers of `c` and guidance led by Meandering, or by `source`.
   RunResult flyLed(
       const Case& c, const std::string& name, bool resume = false,
-      std::function<void(std::uint32_t)> act = [](std::uint32_t) {}) const {
+      std::function<void(std::uint32_t)> act = [](std::uint32_t) {},
+      std::unique_ptr<CommandSource> source = std::make_unique<Meandering>()) const {
     Checkpoints checkpoints(c, out(name), resume);
     RunOutputs files(c, out(name), &checkpoints);
     Meddler meddler(std::move(act));
@@ -43,7 +58,7 @@ class GuidedRun : public Checkpointed {
                              std::make_unique<GuidanceParticipant>(
                                  makeModel(c), std::make_unique<WingbeatGuidance>(
                                                    c.motion, c.wind, c.guidance.wingbeat,
-                                                   c.time.t_start, std::make_unique<Meandering>())),
+                                                   c.time.t_start, std::move(source))),
                              folder);
     Participants all = solvers.participants();
     all[static_cast<std::size_t>(Role::kGuidance)] = &guidance;
@@ -90,6 +105,20 @@ TEST_F(GuidedRun, AKilledLedFlightGoesOnBitForBit) {
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFSIGNALED(status));
   ASSERT_TRUE(flyLed(c, "cut", true).complete);
+  expectSameFlight("whole", "cut");
+}
+
+TEST_F(GuidedRun, AFailingGuidanceLeavesACheckpointToGoOnFrom) {
+  const Case c = climb({{"guidance", "commands"}});
+  ASSERT_TRUE(flyLed(c, "whole").complete);
+  const RunResult failed =
+      flyLed(c, "cut", false, [](std::uint32_t) {}, std::make_unique<Failing>(37));
+  EXPECT_FALSE(failed.complete);
+  expectHas(failed.failure, "step 37");
+  expectHas(failed.failure, "the leader has lost its way");
+  EXPECT_TRUE(fs::exists(part("cut", "36", "manifest.json")));
+  ASSERT_TRUE(flyLed(c, "cut", true).complete);
+  EXPECT_EQ(summary("cut")["resumed"][0]["step"], 36);
   expectSameFlight("whole", "cut");
 }
 

@@ -35,6 +35,7 @@ class Commands(leading.Leader):
         command(amplitude=0.1, deviation_mean=0.02)  # when the first flap begins
         self.good("step", 20)
         command(amplitude=0.5, deviation_mean=0.01, at_once=True)  # beyond the bounds
+        command(amplitude=0.5, deviation_mean=0.01, at_once=True)
         self.good("step", 20)
         command(amplitude=float("nan"), at_once=True)
         self.good("step", 20)
@@ -42,6 +43,9 @@ class Commands(leading.Leader):
         self.good("resume")
         code, output = self.finish(process, 120)
         self.assertEqual(code, 0, output)
+        for told in ("command amplitude = 0.5: is cut to 0.25; must be within",
+                     "command amplitude = nan: must be a finite number; the message is refused"):
+            self.assertEqual(output.count(told), 1, output)
         self.check_flight()
         self.check_replay()
         self.check_keyboard_and_joystick()

@@ -2,6 +2,8 @@
 """A guidance node of one's own, in Python: what it leads is the same again, and can be flown again
 without it."""
 import os
+import re
+import textwrap
 import unittest
 
 import flying
@@ -55,6 +57,56 @@ class OwnGuidance(Guided):
     def largest_pitch(self, name):
         pitch = flying.summary(self.out(name))["theta_B_deg"]
         return max(abs(pitch["min"]), abs(pitch["max"]))
+
+    def test_in_cpp(self):
+        """Joint angles of its own, level by level; the fluid and the body answer to them."""
+        keys = (*CLIMB, "flaps:=0.3")
+        self.complete("cpp", *keys, "guidance_node:=own_guidance_node")
+        self.complete("motion", *keys, "in_process:=true")
+        psi = {}
+        for name in ("cpp", "motion"):
+            columns, rows = flying.table(self.out(name), "flight.csv")
+            psi[name] = [row[columns.index("psi")] for row in rows]
+        self.assertEqual(len(psi["cpp"]), 31)
+        for own, case in zip(psi["cpp"], psi["motion"]):
+            self.assertAlmostEqual(own - case, 0.02, delta=1e-12)
+        self.assertNotEqual(self.sha("cpp"), self.sha("motion"))
+        self.complete("again", "replay:=" + self.out("cpp"), "in_process:=true")
+        self.assertEqual(self.sha("again"), self.sha("cpp"))
+
+    def test_the_example_of_the_manual(self):
+        """docs/guidance.md has a program: it flies as it stands there."""
+        with open(os.path.join(flying.ROOT, "docs", "guidance.md")) as f:
+            indented = re.search(r"(?m)^    #!/usr/bin/python3\n(?:(?:    .*)?\n)*", f.read()).group()
+        name = "manual_guidance_%d.py" % os.getpid()
+        path = os.path.join(flying.NODE_DIR, name)  # where installed programs are, too
+        self.addCleanup(os.remove, path)
+        with open(path, "w") as f:
+            f.write(textwrap.dedent(indented).strip() + "\n")
+        os.chmod(path, 0o755)
+        examples = os.path.join(flying.ROOT, "examples")
+        self.complete("manual", *CLIMB, "flaps:=0.3", "guidance_node:=" + name,
+                      PYTHONPATH=examples + ":" + os.environ.get("PYTHONPATH", ""))
+        columns, rows = flying.table(self.out("manual"), "flight.csv")
+        column = columns.index("command_deviation_mean")
+        self.assertTrue(any(row[column] for row in rows))
+
+    def test_programs_that_cannot_be_started(self):
+        name = "locked_guidance_%d.py" % os.getpid()
+        path = os.path.join(flying.NODE_DIR, name)
+        self.addCleanup(os.remove, path)
+        with open(path, "w") as f:
+            f.write("#!/usr/bin/python3\n")
+        code, output = self.fly(*CLIMB, "guidance_node:=" + name, "fluid_node:=nobody.py",
+                                "out:=" + self.out(), limit=30)
+        self.assertEqual(code, 2, output)
+        self.assertIn("guidance_node:=%s: %s is not executable; chmod +x %s" % (name, path, path),
+                      output)
+        self.assertIn("fluid_node:=nobody.py: no program of this name in the package; put it into",
+                      output)
+        self.assertNotIn("roslaunch", output)
+        self.assertEqual(len(output.splitlines()), 2, output)
+        self.assertFalse(os.path.exists(self.out()))
 
     def test_wrong_keys(self):
         os.mkdir(self.out("empty"))

@@ -41,6 +41,18 @@ class WrongInput(flying.FlightTest):
         self.assertIn("holds something already", self.refused("out:=" + self.out()))
         self.assertEqual(os.listdir(self.out()), ["precious"])
 
+    def test_a_folder_that_is_no_run(self):
+        output = self.refused("resume:=" + self.out("nowhere"))
+        self.assertIn("nowhere: not the folder of a run (it has no case.yaml)", output)
+        self.assertEqual(output.count("fly: "), 1, output)
+
+    def test_help_names_every_leader(self):
+        code, output = self.fly("--help")
+        self.assertEqual(code, 0)
+        told = output[output.index("  guidance "):output.index("  guidance_node ")]
+        for leader in ("motion", "commands", "controller", "node", "replay"):
+            self.assertIn(leader, told)
+
     def test_plan_tells_and_writes_nothing(self):
         code, output = self.fly("case:=tethered_fwuav", "plan:=true", "out:=" + self.out())
         self.assertEqual(code, 0, output)

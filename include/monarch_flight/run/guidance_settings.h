@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "monarch_flight/guidance/controller_settings.h"
 #include "monarch_flight/guidance/wingbeat_guidance.h"
@@ -19,6 +21,9 @@ enum class GuidanceKind {
 
 /// As in a case.
 const char* guidanceName(GuidanceKind kind);
+
+/// guidance/limits and guidance/rates of defaults.yaml; the rates a flap. Throws InputError.
+std::array<CommandLimits, kCommands> defaultCommandLimits(const std::string& config_dir);
 
 struct GuidanceSettings {
   GuidanceKind kind = GuidanceKind::kMotion;

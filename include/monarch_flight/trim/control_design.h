@@ -13,10 +13,10 @@ namespace monarch_flight {
 
 /// What is asked of a controller's design (docs/guidance.md).
 struct ControlOptions {
-  int samples = 10;                       ///< of the law a flap
-  std::vector<std::size_t> inputs{0, 3};  ///< of kCommandTable: amplitude, deviation_mean
-  double time_constant = 0.06;            ///< of the commands' filters [flaps]
-  std::array<CommandLimits, kCommands> limits = usualLimits();  ///< rates a flap
+  int samples = 10;                                                           ///< of the law a flap
+  std::vector<std::size_t> inputs{kAmplitudeCommand, kDeviationMeanCommand};  ///< of kCommandTable
+  double time_constant = 0.06;                  ///< of the commands' filters [flaps]
+  std::array<CommandLimits, kCommands> limits;  ///< rates a flap; must be given
   std::optional<double> speed, climb;  ///< set point [m/s], [rad]; default: the case's own motion
   std::vector<double> speeds, climbs;  ///< of the table [m/s], [rad]; empty: around the set point
   /// The reference at the set point is the case's own motion without commands instead of the
@@ -26,7 +26,8 @@ struct ControlOptions {
   /// The gains are those of that motion, too, instead of those of the periodic flight.
   bool own_gains = false;
   double state_weight = 0.3, integral_weight = 0.02, input_weight = 3.0;
-  static std::array<CommandLimits, kCommands> usualLimits();
+  /// The limits of the program's defaults (config/defaults.yaml), with rates that suit a law.
+  static std::array<CommandLimits, kCommands> usualLimits(const std::string& config_dir);
 };
 
 /// Periodic flight under constant commands.
