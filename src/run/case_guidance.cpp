@@ -164,7 +164,7 @@ void checkReplay(const Case& c, const NumericTable& table, Faults& faults) {
   check("clipped", 0.0, kMostCounted);
   check("refused", 0.0, kMostCounted);
   check("lost", 0.0, 1.0);
-  if (c.insect.bare_wing) return;
+  if (c.insect.bare_wing || !c.mirrored) return;
   check("wy", 0.0, 0.0);  // as in kMirrored
   check("way", 0.0, 0.0);
 }

@@ -22,6 +22,7 @@ std::string checkpointFolder(const std::string& out) { return out + "/checkpoint
 Checkpoints::Checkpoints(const Case& c, const std::string& out, bool resume, int ranks)
     : files_(checkpointFolder(out)),
       facts_{0, MONARCH_FLIGHT_VERSION, c.name, c.sha256, ranks},
+      led_by_node_(c.guidance.kind == GuidanceKind::kNode),
       out_(out),
       case_yaml_(c.resolved_yaml),
       every_(static_cast<std::uint32_t>(c.output.checkpoint_every)) {
@@ -91,7 +92,8 @@ std::string Checkpoints::problemOf(std::uint32_t step, const Case& c, const std:
 
 std::string Checkpoints::command() const {
   return "scripts/fly resume:=" + out_ +
-         (facts_.ranks > 1 ? " ranks:=" + std::to_string(facts_.ranks) : "");
+         (facts_.ranks > 1 ? " ranks:=" + std::to_string(facts_.ranks) : "") +
+         (led_by_node_ ? " guidance_node:=<its program>" : "");
 }
 
 std::optional<std::uint32_t> Checkpoints::resumed() const {

@@ -52,6 +52,7 @@ class Checkpoints : public Keeper {
 
   CheckpointFiles files_;
   CheckpointFacts facts_;
+  bool led_by_node_;  // whose program must be named again
   std::string out_;
   std::string case_yaml_;
   std::uint32_t every_;
