@@ -106,7 +106,7 @@ std::array<CommandLimits, kCommands> defaultCommandLimits(const std::string& con
   Section defaults(caseFile(path), "", faults);
   Section section = defaults.section("guidance");
   WingbeatSettings settings;
-  readLimits(section, 1.0, settings);
+  readLimits(section, 1.0, false, settings);
   faults.throwIfAny(path);
   return settings.limits;
 }

@@ -14,7 +14,7 @@ class Wider : public Guidance {
  private:
   PrescribedState at(double t) const {
     PrescribedState state = motion_->at(t);
-    state.angles.psi.q += 0.02;
+    for (Side side : kSides) state.angles.wings[side].psi.q += 0.02;
     return state;
   }
   std::shared_ptr<const PrescribedMotion> motion_;
