@@ -52,8 +52,7 @@ Coordinator::Coordinator(const CoupledModel& model, const CouplingSettings& sett
       step_model_(checked(model, settings), settings.length_scale),
       balance_(model),
       accelerator_(makeAccelerator(settings, step_model_)),
-      cautious_(makeAccelerator(cautious(settings), step_model_)),
-      companion_(model.mirrored ? nullptr : std::make_unique<Companion>()) {
+      cautious_(makeAccelerator(cautious(settings), step_model_)) {
   for (Role role : kAllRoles) {
     const bool needed = role != Role::kFluidLeft || !model.mirrored;
     const bool present = participants_[static_cast<std::size_t>(role)] != nullptr;
@@ -186,7 +185,10 @@ ExchangeKey Coordinator::keyOf(std::uint32_t step, std::uint32_t iteration, Phas
 }
 
 Reply Coordinator::exchange(Role role, const Request& request) {
-  Reply reply = participants_[static_cast<std::size_t>(role)]->exchange(request);
+  return accepted(role, request, participants_[static_cast<std::size_t>(role)]->exchange(request));
+}
+
+Reply Coordinator::accepted(Role role, const Request& request, Reply reply) const {
   if (!reply.error.empty()) throw NumericalError(reply.error);
   const std::string place =
       std::string(roleName(role)) + ", step " + std::to_string(request.key.step) + ", iteration " +
@@ -207,15 +209,17 @@ Reply Coordinator::ask(Role role, const Request& request, CommittedStep& out) {
 
 /// The air of both wings, at the same time where both are solved; `out` gets what it reports.
 PerWing<Reply> Coordinator::askAir(const Request& request, CommittedStep& out) {
-  if (!companion_) {
+  if (model_.mirrored) {
     const Reply right = ask(Role::kFluid, request, out);
     out.fluid = right.report;
     return {right, right};
   }
   const auto begin = Clock::now();
   PerWing<Reply> air;
-  companion_->both([&] { air.right = exchange(Role::kFluid, request); },
-                   [&] { air.left = exchange(Role::kFluidLeft, request); });
+  Participant& left = *participants_[static_cast<std::size_t>(Role::kFluidLeft)];
+  left.ask(request);
+  air.right = exchange(Role::kFluid, request);
+  air.left = accepted(Role::kFluidLeft, request, left.answer());
   for (Side side : kSides)
     out.wall_s[static_cast<std::size_t>(kFluids[side])] += air[side].wall_s;
   out.exchange_s += secondsSince(begin) - std::max(air.right.wall_s, air.left.wall_s);

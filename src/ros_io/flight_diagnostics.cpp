@@ -9,7 +9,7 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-diagnostic_msgs::KeyValue entry(const char* key, double value) {
+diagnostic_msgs::KeyValue entry(const std::string& key, double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   diagnostic_msgs::KeyValue out;

@@ -138,13 +138,21 @@ double RosParticipant::limitOf(Phase phase) const {
 }
 
 Reply RosParticipant::exchange(const Request& request) {
-  ParticipantRequest message = toMessage(request);
-  pending_ = message.key;
+  ask(request);
+  return answer();
+}
+
+void RosParticipant::ask(const Request& request) {
+  pending_ = toMessage(request);
   reply_.reset();
   run_.queue.callAvailable();  // takes note of nodes that have gone since the last exchange
   requireAlive(request.key);
-  requests_.publish(message);
-  await(message, request.key);
+  asked_ = ros::SteadyTime::now();
+  requests_.publish(pending_);
+}
+
+Reply RosParticipant::answer() {
+  await(asked_);
   counters_there_ = fromMessage(reply_->ignored);
   Reply reply = fromMessage(*reply_);
   if (!reply.error.empty() && reply.error.find("step ") == std::string::npos)
@@ -155,13 +163,13 @@ Reply RosParticipant::exchange(const Request& request) {
   return reply;
 }
 
-void RosParticipant::await(ParticipantRequest& message, const ExchangeKey& key) {
+void RosParticipant::await(const ros::SteadyTime& begin) {
+  const ExchangeKey key = fromMessage(pending_.key);
   const double limit = limitOf(key.phase);
-  const ros::SteadyTime begin = ros::SteadyTime::now();
   const ros::SteadyTime deadline = begin + ros::WallDuration(limit);
   ros::WallDuration patience(limit / 8.0);  // then it is asked again: after 1/8, 1/4, 1/2
   std::optional<ros::SteadyTime> stopped;   // when the interrupt was seen
-  while (true) {
+  while (!reply_) {
     run_.queue.callAvailable(slice(deadline));
     if (reply_) return;
     requireAlive(key);
@@ -177,7 +185,7 @@ void RosParticipant::await(ParticipantRequest& message, const ExchangeKey& key) 
                           " (watchdog); messages ignored so far: " + counters_.describe());
     }
     if (now >= begin + patience) {
-      requests_.publish(message);
+      requests_.publish(pending_);
       patience += patience;
     }
   }
@@ -198,7 +206,7 @@ void RosParticipant::onReply(const ParticipantReplyConstPtr& reply) {
     ++counters_.malformed;
   } else if (reply->key.run != run_.id) {
     ++counters_.foreign;
-  } else if (fromMessage(reply->key) != fromMessage(pending_)) {
+  } else if (fromMessage(reply->key) != fromMessage(pending_.key)) {
     ++counters_.late;
   } else if (reply_) {
     ++counters_.repeated;

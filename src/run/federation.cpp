@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "monarch_flight/coupling/beside_participant.h"
 #include "monarch_flight/coupling/coordinator.h"
 #include "monarch_flight/coupling/participants.h"
 #include "monarch_flight/fluid/navier_stokes.h"
@@ -136,8 +137,12 @@ RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& parti
 }
 
 InProcessFederation::InProcessFederation(const Case& c, const std::string& checkpoints) : case_(c) {
-  for (Role role : rolesOf(c))
-    participants_[static_cast<std::size_t>(role)] = makeParticipant(role, c, checkpoints);
+  for (Role role : rolesOf(c)) {
+    auto& participant = participants_[static_cast<std::size_t>(role)];
+    participant = makeParticipant(role, c, checkpoints);
+    if (role == Role::kFluidLeft)  // both wings' air at the same time
+      participant = std::make_unique<BesideParticipant>(std::move(participant));
+  }
 }
 
 RunResult InProcessFederation::run(std::uint64_t run_id, const std::vector<StepSink*>& sinks,

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "monarch_flight/coupling/accelerator.h"
-#include "monarch_flight/coupling/companion.h"
 #include "monarch_flight/coupling/interface_balance.h"
 #include "monarch_flight/coupling/keeper.h"
 #include "monarch_flight/coupling/model.h"
@@ -98,6 +97,7 @@ class Coordinator {
   PerWing<Reply> askAir(const Request& request, CommittedStep& out);
   void askAll(const Request& request);
   Reply exchange(Role role, const Request& request);
+  Reply accepted(Role role, const Request& request, Reply reply) const;
 
   CouplingVector predictedIncrements() const;
   double loadChange(const PerWing<Loads>& loads, const PerWing<Loads>& previous) const;
@@ -116,7 +116,6 @@ class Coordinator {
   StepModel step_model_;
   InterfaceBalance balance_;
   std::unique_ptr<Accelerator> accelerator_, cautious_;  // of first and of second attempts
-  std::unique_ptr<Companion> companion_;                 // asks the left wing's fluid
   PerWing<Matrix6d> added_mass_;                         // of the fluids, for the ratio
   int operator_cost_ = 0;                                // of a fluid, in evaluations
   Interface committed_;                                  // level n

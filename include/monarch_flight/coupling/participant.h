@@ -115,6 +115,13 @@ class Participant {
   /// Answers `request`. In-process participants report failures in Reply::error; transports throw
   /// ExchangeError naming participant, step, iteration and phase when no answer comes in time.
   virtual Reply exchange(const Request& request) = 0;
+  /// The same in two parts, between which others may be asked: `ask` begins, `answer` waits for the
+  /// end. Here, nothing begins before `answer`.
+  virtual void ask(const Request& request) { asked_ = request; }
+  virtual Reply answer() { return exchange(asked_); }
+
+ private:
+  Request asked_;
 };
 
 class ExchangeError : public std::runtime_error {

@@ -38,6 +38,8 @@ class RosParticipant : public Participant {
   /// Throws ExchangeError naming participant, step, sub-iteration and phase: no reply in time, a
   /// node of the run lost, interrupted.
   Reply exchange(const Request& request) override;
+  void ask(const Request& request) override;
+  Reply answer() override;
   /// False before the handshake, and again once the node of this participant has gone.
   bool connected() const;
   /// "the fluid node (/monarch_flight/fluid)"
@@ -61,7 +63,7 @@ class RosParticipant : public Participant {
   void onHello(const HelloConstPtr& hello);
   void onReply(const ParticipantReplyConstPtr& reply);
   void requireAlive(const ExchangeKey& key) const;
-  void await(ParticipantRequest& message, const ExchangeKey& key);
+  void await(const ros::SteadyTime& begin);
   double limitOf(Phase phase) const;
   bool ready() const;
 
@@ -73,7 +75,8 @@ class RosParticipant : public Participant {
   WatchedPublisher<ParticipantRequest> requests_;
   ros::Subscriber hello_in_, replies_;
   HelloConstPtr answer_;            // of this run
-  CouplingKey pending_;             // what is, or was last, waited for
+  ParticipantRequest pending_;      // what is, or was last, waited for
+  ros::SteadyTime asked_;
   ParticipantReplyConstPtr reply_;  // to pending_
 };
 
