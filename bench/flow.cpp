@@ -65,7 +65,8 @@ double operatorSeconds() {
   const double begin = cpuSeconds();
   for (int n = 0; n < kRepeats; ++n) {
     const AirMotion air = step.airMotion(Side::kRight, d);
-    const Vector6d all = jacobian.velocity * air.velocity + jacobian.acceleration * air.acceleration;
+    const Vector6d all =
+        jacobian.velocity * air.velocity + jacobian.acceleration * air.acceleration;
     Loads loads;
     loads.force_pressure = 1e-6 * all.head<3>();
     loads.moment_pressure = 1e-6 * all.tail<3>();

@@ -81,9 +81,8 @@ Eigen::Vector4d coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotio
   LastStep sink;
   const StopFlag stop{false};
   FlyUntil control(stop);
-  const auto outcome =
-      Coordinator(model, settings, {&fluid, &flight, &wing, &guidance, nullptr}, 1)
-          .run({&sink}, control);
+  const auto outcome = Coordinator(model, settings, {&fluid, &flight, &wing, &guidance, nullptr}, 1)
+                           .run({&sink}, control);
   if (!outcome.complete) throw std::runtime_error("coupled flap: " + outcome.failure);
   const Interface& end = sink.last.interface;
   return {end.body.x.x(), end.body.x.z(), end.body.pitch.q, end.theta.right.q};
@@ -125,8 +124,7 @@ void addPendulum(const Case& c, DynamicsRows& rows) {
     double worst = 0.0;
     for (int n = 1; n <= 10 * steps; ++n) {
       theta = solver.step(theta, BodyState(), angles, Loads());
-      worst =
-          std::max(worst, std::abs(theta.q - wing.theta_0 - amplitude * std::cos(n * turn)));
+      worst = std::max(worst, std::abs(theta.q - wing.theta_0 - amplitude * std::cos(n * turn)));
     }
     const double error = amplitude * std::abs(std::cos(10 * steps * turn - 0.25 * M_PI) -
                                               std::cos(0.25 * M_PI));  // phase error, exact scheme

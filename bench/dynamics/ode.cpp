@@ -80,8 +80,8 @@ LongitudinalFlight::LongitudinalFlight(const Insect& insect, double gravity,
 OdeState LongitudinalFlight::state(double t) const {
   const PrescribedState s = motion_->at(t);
   const Coordinate& theta = s.angles.wings.right.theta;
-  return {s.body.x.x(), s.body.x.z(), s.body.pitch.q,  theta.q, s.body.v.x(),
-          s.body.v.z(), s.body.pitch.qd, theta.qd, 0.0, 0.0};
+  return {s.body.x.x(), s.body.x.z(),    s.body.pitch.q, theta.q, s.body.v.x(),
+          s.body.v.z(), s.body.pitch.qd, theta.qd,       0.0,     0.0};
 }
 
 PrescribedState LongitudinalFlight::motion(const OdeState& y, double t) const {
@@ -109,9 +109,8 @@ void LongitudinalFlight::operator()(const OdeState& y, OdeState& dydt, double t)
   for (std::size_t i = 0; i < 3; ++i) actuators += torque[i].dot(m.joints[i].Omega);
   const WingMotion wing = wingMotion(Side::kRight, insect_, s.body, s.angles);
   const double air = 2.0 * (loads.force().dot(wing.v_W) + loads.moment().dot(wing.omega_W));
-  dydt = {y[4],         y[5],         y[6],           y[7],
-          s.body.a.x(), s.body.a.z(), s.body.pitch.qdd, theta.qdd,
-          actuators,    air};
+  dydt = {y[4],      y[5],      y[6], y[7], s.body.a.x(), s.body.a.z(), s.body.pitch.qdd,
+          theta.qdd, actuators, air};
 }
 
 double LongitudinalFlight::kineticEnergy(const OdeState& y, double t) const {

@@ -14,7 +14,8 @@ Insect publishedInsect(const History& history) {
   plate.mu = {0.0, 0.00284, 0.0};
   const Wing wing{plate, Planform::rectangle(0.0209048, 0.060997, 0.25), history.kappa,
                   history.theta_0};
-  Insect insect{history.name, false, 0, Matrix3d::Zero(), 0, 0, 0, 0, {}, history.beta, {wing, wing}};
+  Insect insect{history.name, false,        0,           Matrix3d::Zero(), 0, 0, 0, 0,
+                {},           history.beta, {wing, wing}};
   insect.m_B = 1.485e-4;
   insect.J_B = Vector3d(5.988708e-10, 2.9481420375e-09, 2.9481420375e-09).asDiagonal();
   insect.abdomen.m = 1.092e-4;
@@ -27,7 +28,8 @@ Insect publishedInsect(const History& history) {
 
 namespace {
 
-/// Angles of the right wing with phi'' and psi'' recovered from the published derivative of Omega_R.
+/// Angles of the right wing with phi'' and psi'' recovered from the published derivative of
+/// Omega_R.
 WingAngles wingAngles(const Vector3d& euler, const Vector3d& euler_dot, const Vector3d& rate_dot) {
   WingAngles angles{{euler.x(), euler_dot.x(), 0.0},
                     {euler.z(), euler_dot.z(), 0.0},
@@ -58,9 +60,9 @@ Sample sampleOf(const History& history, const Rows& rows, std::size_t n) {
   const WingAngles wing = wingAngles(rows.vector(n, "Euler" + bar + "R"),
                                      rows.vector(n, "Euler" + bar + "R" + bar + "dot"),
                                      rows.vector(n, "W_R" + bar + "dot"));
-  s.angles = {{wing, wing},
-              {rows(n, p ? "theta_A" : "thetaA"), rows(n, "W_A_2"),
-               rows(n, p ? "W_A_dot_2" : "W_Adot_2")}};
+  s.angles = {
+      {wing, wing},
+      {rows(n, p ? "theta_A" : "thetaA"), rows(n, "W_A_2"), rows(n, p ? "W_A_dot_2" : "W_Adot_2")}};
   if (p) s.angles.wings.left.theta = {rows(n, "X_20"), rows(n, "X_22"), rows(n, "X_dot_22")};
   s.loads[0] << rows.vector(n, "F_R"), rows.vector(n, "M_R");
   s.loads[1] << rows.vector(n, "F_L"), rows.vector(n, "M_L");

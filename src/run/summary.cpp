@@ -59,8 +59,12 @@ void Summary::add(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
   theta_B_.add(body.pitch.q);
   theta_R_.add(step.interface.theta.right.q);
-  if (case_.free[kPitch] && tumbled_ == kNever && std::abs(body.pitch.q) > kTumbled)
-    tumbled_ = step.step;
+  theta_L_.add(step.interface.theta.left.q);
+  const double roll = rollPitchYaw(body.R_IB).x();
+  roll_.add(roll);
+  const bool over = (case_.free[kPitch] && std::abs(body.pitch.q) > kTumbled) ||
+                    (case_.free[kRoll] && std::abs(roll) > kTumbled);
+  if (over && tumbled_ == kNever) tumbled_ = step.step;
   guidance_ = step.guidance;
   if (guidance_.lost && lost_ == kNever) lost_ = step.step;
   hash_.add(step);
@@ -133,7 +137,9 @@ void Summary::memory(StateVisitor& state) {
     state((name + "_count").c_str(), r.count);
   };
   range("theta_B", theta_B_);
+  range("roll", roll_);
   range("theta_R", theta_R_);
+  range("theta_L", theta_L_);
   range("sub_iterations_solved", solved_);
   range("sub_iterations_all", all_);
   range("fluid_evaluations", evaluations_);
@@ -214,6 +220,10 @@ std::string Summary::json(const std::string& failure) const {
   j["speed_m_s"] = meanVelocity().norm();
   j["theta_B_deg"] = degrees(theta_B_);
   j["theta_R_deg"] = degrees(theta_R_);
+  if (!case_.mirrored) {
+    j["theta_L_deg"] = degrees(theta_L_);
+    j["roll_deg"] = degrees(roll_);
+  }
   if (case_.guidance.kind != GuidanceKind::kMotion) {
     j["guidance"] = {{"type", guidanceName(case_.guidance.kind)},
                      {"clipped", guidance_.clipped},
@@ -223,6 +233,7 @@ std::string Summary::json(const std::string& failure) const {
   j["wall_s"] = {{"total", wallSeconds()}, {"fluid", wall_[0]},    {"flight", wall_[1]},
                  {"wing", wall_[2]},       {"guidance", wall_[3]}, {"exchange", exchange_},
                  {"coupling", coupling_},  {"outputs", outputs_}};
+  if (!case_.mirrored) j["wall_s"]["fluid_left"] = wall_[4];
   if (cells_ > 0) j["fluid_s"] = kernels(kernels_, wall_[0]);
   if (resumed_ != "[]") j["resumed"] = Json::parse(resumed_);
   j["ignored_messages"] = {{"late", ignored_.late},

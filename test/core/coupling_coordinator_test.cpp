@@ -63,8 +63,7 @@ TEST_F(Coordination, CommitsTheInterfaceOfTheLastLoads) {
         EXPECT_TRUE(same(last->interface.theta[side], step.interface.theta[side]));
       EXPECT_TRUE(p == f_.wing.get() || same(last->interface, step.interface));
       for (Side side : kSides) {
-        EXPECT_TRUE(p == f_.fluid.get() ||
-                    last->loads[side].moment() == step.loads[side].moment());
+        EXPECT_TRUE(p == f_.fluid.get() || last->loads[side].moment() == step.loads[side].moment());
       }
       ++committed;
     }
@@ -133,8 +132,7 @@ TEST_F(Coordination, ForceIsThatOfBothWingsInInertialAxes) {
       step.loads.right.force();
   const Eigen::Vector3d both = R_IB * Eigen::Vector3d(2.0 * right.x(), 0.0, 2.0 * right.z());
   EXPECT_LT((step.force_I - both).norm(), 1e-14 * both.norm());
-  for (Side side : kSides)
-    EXPECT_EQ(step.angles.wings[side].theta.q, step.interface.theta[side].q);
+  for (Side side : kSides) EXPECT_EQ(step.angles.wings[side].theta.q, step.interface.theta[side].q);
 }
 
 TEST_F(Coordination, StepsComeInOrderAndTheEndOnce) {

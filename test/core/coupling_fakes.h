@@ -100,8 +100,8 @@ class SineFlapping : public PrescribedMotion {
     state.body.x = Eigen::Vector3d(1.0 * t, 0.0, -0.5 * t);
     state.body.v = Eigen::Vector3d(1.0, 0.0, -0.5);
     state.body = withPitch(state.body, {0.3, 0.0, 0.0});
-    state.angles.wings = both(WingAngles{wave(0.1, 0.9, w, 1.4, t), wave(0.0, 0.05, 2.0 * w, 0.2, t),
-                                         wave(0.0, 0.5, w, 0.1, t)});
+    state.angles.wings = both(WingAngles{
+        wave(0.1, 0.9, w, 1.4, t), wave(0.0, 0.05, 2.0 * w, 0.2, t), wave(0.0, 0.5, w, 0.1, t)});
     state.angles.theta_A = wave(0.3, 0.2, w, 2.0, t);
     return state;
   }

@@ -96,8 +96,7 @@ TEST_F(SolverParticipants, AnswersAreTheSolversOwn) {
   EXPECT_TRUE(same(flown.interface, Interface{body, r.interface.theta}));
   const WingPitchSolver wing(Side::kRight, m.insect, m.gravity, m.newmark);
   const Reply turned = f_.wing_solver->exchange(r);
-  const Coordinate theta =
-      wing.step(start.theta.right, r.interface.body, angles, r.loads.right);
+  const Coordinate theta = wing.step(start.theta.right, r.interface.body, angles, r.loads.right);
   for (Side side : kSides) EXPECT_TRUE(same(turned.interface.theta[side], theta));
   EXPECT_TRUE(same(Interface{turned.interface.body, r.interface.theta}, r.interface));
 }

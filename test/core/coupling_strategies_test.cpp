@@ -226,8 +226,8 @@ TEST(Balance, WorkOfTheAirIsTheSameOnBothSides) {
     const WingMotion motion =
         wingMotion(Side::kRight, model.insect, step.interface.body, step.angles);
     const Loads& loads = step.loads.right;
-    const double work = model.newmark.dt *
-                        (loads.force().dot(motion.v_W) + loads.moment().dot(motion.omega_W));
+    const double work =
+        model.newmark.dt * (loads.force().dot(motion.v_W) + loads.moment().dot(motion.omega_W));
     EXPECT_NEAR(step.work_fluid, work, 1e-12 * std::abs(work));
     EXPECT_NEAR(step.work_structure, step.work_fluid, 1e-6 * std::abs(work) + 1e-15);
     total += std::abs(work);
@@ -264,7 +264,8 @@ TEST(Balance, RatioOfOneHingeIsThatOfItsTwoInertias) {
   const double mass = MultibodyDynamics(model.insect, 9.81)
                           .inertia(insectMotion(model.insect.beta, level.body,
                                                 prescribed.angles))(2, 2);
-  EXPECT_NEAR(InterfaceBalance(model).addedMassRatio(prescribed, level, both(M)), 2.0 / mass, 1e-9 / mass);
+  EXPECT_NEAR(InterfaceBalance(model).addedMassRatio(prescribed, level, both(M)), 2.0 / mass,
+              1e-9 / mass);
 }
 
 TEST(StepModel, IsTheParticipantsOwnAnswer) {

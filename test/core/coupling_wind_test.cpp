@@ -60,7 +60,8 @@ class DriftWind : public WindModel {
 using MakeFluid = std::function<std::unique_ptr<FluidModel>()>;
 
 std::unique_ptr<FluidModel> quasiSteady() {
-  return makeQuasiSteady(publishedMonarch().wings.right.planform, Air{}, BladeElementVariant::kSaneDickinson);
+  return makeQuasiSteady(publishedMonarch().wings.right.planform, Air{},
+                         BladeElementVariant::kSaneDickinson);
 }
 
 std::unique_ptr<FluidModel> navierStokes() {
@@ -188,7 +189,8 @@ std::vector<CommittedStep> fly(const MakeFluid& fluid,
   const StopFlag stop{false};
   FlyUntil control(stop);
   const CoupledOutcome outcome =
-      Coordinator(model, settings, {&air, &flight, &wing, &guidance, nullptr}, 7).run({&sink}, control);
+      Coordinator(model, settings, {&air, &flight, &wing, &guidance, nullptr}, 7)
+          .run({&sink}, control);
   EXPECT_TRUE(outcome.complete) << outcome.failure;
   return sink.steps;
 }

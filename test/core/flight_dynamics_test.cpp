@@ -180,8 +180,7 @@ TEST_P(Dynamics, PowerOfTheAirIsThatOfForcesAtTheJointsAndMoments) {
   double power = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     const Loads& loads = i == 0 ? right : left;
-    const Vector3d mu =
-        i == 0 ? insect.wings.right.plate.mu : mirrored(insect.wings.left.plate).mu;
+    const Vector3d mu = i == 0 ? insect.wings.right.plate.mu : mirrored(insect.wings.left.plate).mu;
     const JointState& joint = motion_.joints[i];
     const Vector3d v_I = motion_.body.v + motion_.body.R_IB * motion_.body.Omega_B.cross(mu);
     const Vector3d w = joint.Omega + joint.Q.transpose() * motion_.body.Omega_B;

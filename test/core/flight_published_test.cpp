@@ -65,7 +65,8 @@ std::vector<Row> published(const std::string& file) {
   return rows;
 }
 
-/// Angles of the right wing with phi'' and psi'' recovered from the published derivative of Omega_R.
+/// Angles of the right wing with phi'' and psi'' recovered from the published derivative of
+/// Omega_R.
 WingAngles wingAngles(const Vector3d& euler, const Vector3d& euler_dot, const Vector3d& rate_dot) {
   WingAngles angles;
   angles.phi = {euler.x(), euler_dot.x(), 0.0};

@@ -21,8 +21,7 @@ const PerWing<Loads> kNoAir;
 /// Accelerations with Lagrange multipliers: all 15 equations, the prescribed accelerations as
 /// constraints.
 Vector15d constrainedAccelerations(const MultibodyDynamics& dynamics, const InsectMotion& motion,
-                                   const PerWing<Loads>& loads,
-                                   const std::vector<int>& free_rows) {
+                                   const PerWing<Loads>& loads, const std::vector<int>& free_rows) {
   Eigen::Matrix<double, 30, 30> system = Eigen::Matrix<double, 30, 30>::Zero();
   Eigen::Matrix<double, 30, 1> right = Eigen::Matrix<double, 30, 1>::Zero();
   system.topLeftCorner<15, 15>() = dynamics.inertia(motion);

@@ -68,8 +68,8 @@ WingMotion motionOf(const Row& row, const Vector3d& mu) {
 
 TEST(QuasiSteadyPublished, HoverIsCarriedAndFollowed) {
   const Insect insect = loadCase("tethered_fwuav", {}, CONFIG_DIR).insect;
-  const auto model = makeQuasiSteady(insect.wings.right.planform, Air{},
-                                     BladeElementVariant::kSaneDickinson);
+  const auto model =
+      makeQuasiSteady(insect.wings.right.planform, Air{}, BladeElementVariant::kSaneDickinson);
   model->start(WingMotion{}, 1e-3);
   const std::vector<Row> rows = published();
   ASSERT_GE(rows.size(), 50u);

@@ -45,8 +45,8 @@ TEST_F(CaseTest, ClimbIsThePapersFlight) {
                   0.433746159939459 - 0.074830919096204,
               1e-10);
   // Deviation runs at twice the flapping frequency.
-  EXPECT_NEAR(start.angles.wings.right.psi.q,
-              c.motion->at(0.5 / 10.2).angles.wings.right.psi.q, 1e-12);
+  EXPECT_NEAR(start.angles.wings.right.psi.q, c.motion->at(0.5 / 10.2).angles.wings.right.psi.q,
+              1e-12);
 }
 
 TEST_F(CaseTest, PlateHasLengthsOfOrderOne) {
@@ -150,7 +150,8 @@ time: {steps_per_flap: 500, flaps: 1}
 )");
   const Case c = loadCase(path, {}, CONFIG_DIR);
   const Case nominal = loadCase("climb_printed", {}, CONFIG_DIR);
-  EXPECT_LT((c.insect.wings.right.plate.J - 2.0 * nominal.insect.wings.right.plate.J).norm(), 1e-20);
+  EXPECT_LT((c.insect.wings.right.plate.J - 2.0 * nominal.insect.wings.right.plate.J).norm(),
+            1e-20);
   EXPECT_EQ(c.insect.m_B, nominal.insect.m_B);
   EXPECT_EQ(c.motion->at(0.01).angles.wings.right.psi.qd, 0.0);
   EXPECT_NE(c.motion->at(0.01).angles.wings.right.phi.qd, 0.0);

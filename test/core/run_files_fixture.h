@@ -98,8 +98,8 @@ inline CommittedStep stepAt(std::uint32_t n) {
     return s;
   }
   for (std::uint32_t k = 0; k < (n <= 2 ? 1 : 3 + n % 2); ++k) {
-    s.iterations.push_back({n, k, k > 2 ? 2u : 1u,
-                            {1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3}, 9e-3, 0.5, 0.7});
+    s.iterations.push_back(
+        {n, k, k > 2 ? 2u : 1u, {1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3}, 9e-3, 0.5, 0.7});
   }
   return s;
 }

@@ -33,56 +33,56 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
       "r");
   const double b = step.interface.body.pitch.q, r = step.interface.theta.right.q;
   const double l = step.interface.theta.left.q;
-  const std::vector<double> expected = {step.t, step.interface.body.x[0],
-                                        0,      step.interface.body.x[2],
-                                        2,      0,
-                                        -1,     0.1,
-                                        0.2,    0.3,
-                                        b,      1,
-                                        100,    std::cos(0.5 * b),
-                                        0,      std::sin(0.5 * b),
-                                        0,      0.4,
-                                        0.5,    r,
-                                        2,      200,
-                                        0.6,    1.25,
-                                        2.5,    3.75,
-                                        4.125,  5.25,
-                                        6.375,  1,
-                                        2,      3,
-                                        4,      5,
-                                        6,      7,
-                                        8,      9,
-                                        4,      0.875,
-                                        41,     42,
-                                        51,     52,
-                                        61,     62,
-                                        0.0625, -1,
-                                        0,      0.5,
-                                        -11,    0,
-                                        12,     0.1 * 3,
-                                        3,      4,
-                                        1,      100,
-                                        101,    102,
-                                        103,    104,
-                                        105,    106,
-                                        107,    108,
-                                        109,    110,
-                                        200,    201,
-                                        202,    203,
-                                        204,    205,
-                                        206,    207,
-                                        208,    209,
-                                        210,    0.45,
-                                        43,     44,
-                                        0.55,   53,
-                                        54,     l,
-                                        3,      300,
+  const std::vector<double> expected = {step.t,  step.interface.body.x[0],
+                                        0,       step.interface.body.x[2],
+                                        2,       0,
+                                        -1,      0.1,
+                                        0.2,     0.3,
+                                        b,       1,
+                                        100,     std::cos(0.5 * b),
+                                        0,       std::sin(0.5 * b),
+                                        0,       0.4,
+                                        0.5,     r,
+                                        2,       200,
+                                        0.6,     1.25,
+                                        2.5,     3.75,
+                                        4.125,   5.25,
+                                        6.375,   1,
+                                        2,       3,
+                                        4,       5,
+                                        6,       7,
+                                        8,       9,
+                                        4,       0.875,
+                                        41,      42,
+                                        51,      52,
+                                        61,      62,
+                                        0.0625,  -1,
+                                        0,       0.5,
+                                        -11,     0,
+                                        12,      0.1 * 3,
+                                        3,       4,
+                                        1,       100,
+                                        101,     102,
+                                        103,     104,
+                                        105,     106,
+                                        107,     108,
+                                        109,     110,
+                                        200,     201,
+                                        202,     203,
+                                        204,     205,
+                                        206,     207,
+                                        208,     209,
+                                        210,     0.45,
+                                        43,      44,
+                                        0.55,    53,
+                                        54,      l,
+                                        3,       300,
                                         0.03125, 10.25,
-                                        20.5,   30.75,
-                                        40.125, 50.25,
-                                        60.375, 0,
-                                        0,      0,
-                                        1,      0};
+                                        20.5,    30.75,
+                                        40.125,  50.25,
+                                        60.375,  0,
+                                        0,       0,
+                                        1,       0};
   const auto row = numbers(rows[2]);
   ASSERT_EQ(row.size(), expected.size());
   for (std::size_t i = 0; i < row.size(); ++i) {
@@ -114,14 +114,12 @@ TEST_F(RunFiles, IterationTableHasARowPerSubIteration) {
   outputs.onEnd("");
   const auto rows = lines(read("iterations.csv"));
   ASSERT_EQ(rows.size(), 1u + 0u + 1u + 1u + 4u);
-  EXPECT_EQ(
-      rows[0],
-      "step,iteration,t,residual_x,residual_y,residual_z,residual_roll,residual_theta_B,"
-      "residual_yaw,residual_theta_R,residual_theta_L,load_residual,relaxation,fluid_wall_s,"
-      "attempt");
-  EXPECT_EQ(numbers(rows[6]),
-            (std::vector<double>{3, 3, stepAt(3).t, 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3, 7e-3, 8e-3,
-                                 9e-3, 0.5, 0.7, 2}));
+  EXPECT_EQ(rows[0],
+            "step,iteration,t,residual_x,residual_y,residual_z,residual_roll,residual_theta_B,"
+            "residual_yaw,residual_theta_R,residual_theta_L,load_residual,relaxation,fluid_wall_s,"
+            "attempt");
+  EXPECT_EQ(numbers(rows[6]), (std::vector<double>{3, 3, stepAt(3).t, 1e-3, 2e-3, 3e-3, 4e-3, 5e-3,
+                                                   6e-3, 7e-3, 8e-3, 9e-3, 0.5, 0.7, 2}));
 }
 
 TEST_F(RunFiles, SummaryHasEveryKeyAndTheRightNumbers) {

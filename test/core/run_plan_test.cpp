@@ -109,8 +109,7 @@ TEST(Plan, TimeIsThatOfARun) {
 TEST(Plan, AShortWingIsPlannedAtItsOwnResolution) {
   // Aspect ratio 0.33: at 9 cells to a chord it would have three along the span.
   Case c = loadCase("plate_re100", {}, CONFIG_DIR);
-  for (Side side : kSides)
-    c.insect.wings[side].planform = Planform::rectangle(1.0, 0.33, 0.5);
+  for (Side side : kSides) c.insect.wings[side].planform = Planform::rectangle(1.0, 0.33, 0.5);
   const RunPlan plan = planRun(c, 1);
   EXPECT_GT(plan.step_s, 0.0);
   EXPECT_NO_THROW(requirePossible(plan));

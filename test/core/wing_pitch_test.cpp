@@ -33,8 +33,7 @@ double printedEquation(const Insect& insect, const BodyState& body, const JointA
                          w_dot * n.x() - w * rate.cross(n).x();
   const double J_yy = wing.J(1, 1), J_xy = wing.J(0, 1);  // J_xy = - integral x y dm
   const double spring = -insect.wings.right.kappa * (theta.q - insect.wings.right.theta_0);
-  const double moment = loads.moment().y() + spring +
-                        wing.m * wing.nu.x() * a.z() -
+  const double moment = loads.moment().y() + spring + wing.m * wing.nu.x() * a.z() -
                         J_yy * (phi.qdd * sp + phi.qd * psi.qd * cp + w_dot * n.y() -
                                 w * rate.cross(n).y() - W.x() * W.z()) -
                         J_xy * (W_x_dot + W.y() * W.z());
@@ -91,8 +90,8 @@ TEST(WingPitch, HoldsForTheLeftWingOfASymmetricMotion) {
   for (int i = 0; i < 50; ++i) {
     BodyState body = random.pitchedBody();
     body.v.y() = body.a.y() = 0.0;
-    const auto torque =
-        dynamics.jointTorques(insectMotion(insect.beta, body, random.angles()), both(random.loads()));
+    const auto torque = dynamics.jointTorques(insectMotion(insect.beta, body, random.angles()),
+                                              both(random.loads()));
     EXPECT_NEAR(torque[0].y(), torque[1].y(), 1e-13 * torque[0].norm());
   }
 }

@@ -105,10 +105,9 @@ TEST_F(Bag, TheTfTreeAloneGivesTheWings) {
       return Coordinate{a[0], a[1], a[2]};
     };
     const Interface interface = fromMessage(state->interface);
-    const JointAngles angles{
-        {{triple(state->phi), triple(state->psi), interface.theta.right},
-         {triple(state->phi_l), triple(state->psi_l), interface.theta.left}},
-        triple(state->theta_a)};
+    const JointAngles angles{{{triple(state->phi), triple(state->psi), interface.theta.right},
+                              {triple(state->phi_l), triple(state->psi_l), interface.theta.left}},
+                             triple(state->theta_a)};
     const WingMotion wing = wingMotion(Side::kRight, insect->insect, interface.body, angles);
     const auto tf =
         buffer.lookupTransform("world_ned", "right_wing", state->header.stamp).transform;
@@ -168,9 +167,8 @@ TEST_F(Bag, TheTwoWrenchesTogetherAreTheForce) {
     EXPECT_EQ("right_wing", right[i]->header.frame_id);
     EXPECT_EQ("left_wing", left[i]->header.frame_id);
     const Eigen::Vector3d force =
-        s.body.R_IB *
-        (wingAttitude(Side::kRight, beta, ours) * vector(right[i]->wrench.force) +
-         wingAttitude(Side::kLeft, beta, theirs) * vector(left[i]->wrench.force));
+        s.body.R_IB * (wingAttitude(Side::kRight, beta, ours) * vector(right[i]->wrench.force) +
+                       wingAttitude(Side::kLeft, beta, theirs) * vector(left[i]->wrench.force));
     const Eigen::Vector3d recorded(states[i]->force[0], states[i]->force[1], states[i]->force[2]);
     EXPECT_LT((force - recorded).norm(), 1e-12 * (1e-3 + recorded.norm()));
     EXPECT_EQ(right[i]->wrench.torque.y, left[i]->wrench.torque.y);

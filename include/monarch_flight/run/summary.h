@@ -60,7 +60,7 @@ class Summary {
   std::uint64_t whole_flaps_ = 0;
   double t_first_ = 0.0, t_last_ = 0.0;  // of the mean velocity
   Eigen::Vector3d x_first_ = Eigen::Vector3d::Zero(), x_last_ = Eigen::Vector3d::Zero();
-  Range theta_B_, theta_R_, solved_, all_, evaluations_, ratio_;
+  Range theta_B_, roll_, theta_R_, theta_L_, solved_, all_, evaluations_, ratio_;
   std::uint32_t retried_ = 0;
   double work_fluid_ = 0.0, work_structure_ = 0.0, work_error_ = 0.0, work_scale_ = 0.0;
   std::array<double, kRoles> wall_{};
