@@ -59,6 +59,10 @@ void Coordinator::prescribe(const Request& request, CommittedStep& out) {
                         std::to_string(request.key.step) + ": let it answer `prescribed`");
   }
   out.guided = *reply.prescribed;
+  if (model_.mirrored) {  // whatever was said of the left wing
+    out.guided.angles.wings.left = out.guided.angles.wings.right;
+    out.guided.rest_angle.left = out.guided.rest_angle.right;
+  }
   out.guidance = reply.guidance;
 }
 
