@@ -59,7 +59,7 @@ void checkWing(const std::string& section, const Wing& wing, bool bare, FaultLis
 }  // namespace
 
 double Insect::totalMass() const {
-  return m_B + wings.right.plate.m + wings.left.plate.m + abdomen.m;
+  return m_B + wings.right.plate.m + (bare_wing ? 0.0 : wings.left.plate.m) + abdomen.m;
 }
 
 double Insect::meanChord() const {

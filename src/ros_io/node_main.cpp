@@ -128,6 +128,10 @@ int inProcessMain(int argc, char** argv) {
                        ": a run in one process has no nodes and no topics that could lead it; choose "
                        "another type, or fly with nodes (in_process:=false)");
     requireProcesses(parameters, c);
+    if (parameters.ranks > 1 && !c.mirrored)
+      throw InputError("ranks = " + std::to_string(parameters.ranks) +
+                       ": in one process the flows of two wings run on one MPI process; use ranks:=1, "
+                       "or fly with nodes (in_process:=false)");
     const std::string out = outputDirectory(parameters, c);
     std::cout << plannedRun(parameters, c, false);
     FlightRun run(c, out, !parameters.resume.empty(), parameters.ranks, {});

@@ -66,9 +66,12 @@ void checkFree(const Case& c, Faults& faults) {
           " = true: must be false: a bare wing has no body to move; only wing_pitch may be free");
     }
   }
-  if (f[kThetaR] && !(c.insect.wings.right.plate.J(1, 1) > 0.0)) {
+  if (!f[kThetaR]) return;
+  for (Side side : c.sides()) {
+    const Appendage& plate = c.insect.wings[side].plate;
+    if (plate.J(1, 1) > 0.0) continue;
     std::ostringstream text;
-    text << "insect/wing/mass = " << c.insect.wings.right.plate.m
+    text << "insect/" << (side == Side::kRight ? "wing" : "left_wing") << "/mass = " << plate.m
          << " kg: must be > 0 kg when free/wing_pitch is "
          << "true; give the wing's mass or set free/wing_pitch false";
     faults.add(text.str());

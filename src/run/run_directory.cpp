@@ -75,7 +75,7 @@ RunDirectory::~RunDirectory() {
 }
 
 std::uint64_t estimatedOutputBytes(const Case& c) {
-  constexpr std::uint64_t kRow = 1100, kIterationRows = 10 * 180, kSmallFiles = 100000;
+  constexpr std::uint64_t kRow = 2400, kIterationRows = 10 * 260, kSmallFiles = 100000;
   constexpr std::uint64_t kBagStep = 20000, kSurface = 400000, kVortices = 800000;
   constexpr std::uint64_t kFieldCell = 64;  // nine floats and a point of three doubles, packed
   constexpr std::uint64_t kCheckpoints = 3, kStateCell = 72;  // seven fields with their rims

@@ -53,7 +53,7 @@ void Range::add(double value) {
 }
 
 Summary::Summary(const Case& c)
-    : case_(c), time_(c.time), hash_(c.mirrored), begin_(std::chrono::steady_clock::now()) {}
+    : case_(c), time_(c.time), begin_(std::chrono::steady_clock::now()), hash_(c.mirrored) {}
 
 void Summary::add(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
@@ -234,7 +234,7 @@ std::string Summary::json(const std::string& failure) const {
                  {"wing", wall_[2]},       {"guidance", wall_[3]}, {"exchange", exchange_},
                  {"coupling", coupling_},  {"outputs", outputs_}};
   if (!case_.mirrored) j["wall_s"]["fluid_left"] = wall_[4];
-  if (cells_ > 0) j["fluid_s"] = kernels(kernels_, wall_[0]);
+  if (cells_ > 0) j["fluid_s"] = kernels(kernels_, wall_[0] + wall_[4]);
   if (resumed_ != "[]") j["resumed"] = Json::parse(resumed_);
   j["ignored_messages"] = {{"late", ignored_.late},
                            {"repeated", ignored_.repeated},
