@@ -115,7 +115,9 @@ CoordinateMatrix AddedMassNewton::residualJacobian(const Trial& trial,
     if (!model_.free()[i]) continue;
     const auto column = static_cast<Eigen::Index>(i);
     const CouplingVector step = fromModes(kDifference * CouplingVector::Unit(column));
-    const auto at = [&](const CouplingVector& d) { return model_.residual(d, predicted(trial, d)); };
+    const auto at = [&](const CouplingVector& d) {
+      return model_.residual(d, predicted(trial, d));
+    };
     const bool turned = i == kY || i == kRoll || i == kYaw || i == kThetaL;
     const CouplingVector change =
         turned ? CouplingVector(0.5 * (at(trial.d + step) - at(trial.d - step)))

@@ -26,16 +26,14 @@ CouplingVector Coordinator::predictedIncrements() const {
   }
 }
 
-double Coordinator::loadChange(const PerWing<Loads>& loads,
-                               const PerWing<Loads>& previous) const {
+double Coordinator::loadChange(const PerWing<Loads>& loads, const PerWing<Loads>& previous) const {
   double largest = 0.0;
   for (Side side : model_.sides()) {
     const Loads &now = loads[side], &then = previous[side];
     const double force = (now.force() - then.force()).norm();
     const double moment = (now.moment() - then.moment()).norm();
-    largest =
-        std::max({largest, relative(force, std::max(force_scale_[side], now.force().norm())),
-                  relative(moment, std::max(moment_scale_[side], now.moment().norm()))});
+    largest = std::max({largest, relative(force, std::max(force_scale_[side], now.force().norm())),
+                        relative(moment, std::max(moment_scale_[side], now.moment().norm()))});
   }
   return largest;
 }

@@ -44,8 +44,7 @@ InterfaceBalance::InterfaceBalance(const CoupledModel& model) : model_(model) {
 }
 
 InterfacePower InterfaceBalance::power(const PrescribedState& prescribed, const Interface& guess,
-                                       const Interface& answer,
-                                       const PerWing<Loads>& loads) const {
+                                       const Interface& answer, const PerWing<Loads>& loads) const {
   InterfacePower power;
   const Insect& insect = model_.insect;
   const JointAngles guessed = prescribed.anglesWith(guess.theta);

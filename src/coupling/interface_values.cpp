@@ -82,10 +82,9 @@ bool same(const Request& a, const Request& b) {
   return a.key == b.key && a.t == b.t &&
          prescribedValues(a.prescribed) == prescribedValues(b.prescribed) &&
          same(a.interface, b.interface) && same(a.loads.right, b.loads.right) &&
-         same(a.loads.left, b.loads.left) &&
-         a.want_operator == b.want_operator && a.want_fields == b.want_fields &&
-         a.q_threshold == b.q_threshold && a.vortex_limit == b.vortex_limit &&
-         a.want_flow == b.want_flow;
+         same(a.loads.left, b.loads.left) && a.want_operator == b.want_operator &&
+         a.want_fields == b.want_fields && a.q_threshold == b.q_threshold &&
+         a.vortex_limit == b.vortex_limit && a.want_flow == b.want_flow;
 }
 
 bool finite(const Request& request) {

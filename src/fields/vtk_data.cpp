@@ -69,9 +69,7 @@ class Placement {
   Placement(const Case& c, const CommittedStep& step, Side side)
       : motion_(wingMotion(side, c.insect, step.interface.body, step.angles)),
         across_(side == Side::kRight ? 1.0 : -1.0) {}
-  Vector3d point(const Vector3d& r_W) const {
-    return out(motion_.r_I + motion_.R_IW * r_W);
-  }
+  Vector3d point(const Vector3d& r_W) const { return out(motion_.r_I + motion_.R_IW * r_W); }
   Vector3d vector(const Vector3d& v_W) const { return out(motion_.R_IW * v_W); }
   /// Vorticity turns the other way round in a mirror.
   Vector3d axial(const Vector3d& w_W) const { return across_ * vector(w_W); }

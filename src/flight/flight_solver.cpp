@@ -99,9 +99,9 @@ BodyVector FlightSolver::accelerations(const BodyState& guess, const JointAngles
   motion.body.a = known.head<3>();
   motion.body.Omega_dot_B = known.tail<3>();
   Eigen::Matrix<double, kBody, kBody> J = dynamics_.inertia(motion).topLeftCorner<kBody, kBody>();
-  BodyVector force =
-      (dynamics_.airForce(motion, loads) + dynamics_.gravityForce(motion) -
-       dynamics_.inertialForce(motion)).head<kBody>();
+  BodyVector force = (dynamics_.airForce(motion, loads) + dynamics_.gravityForce(motion) -
+                      dynamics_.inertialForce(motion))
+                         .head<kBody>();
   for (int i = 0; i < kBody; ++i) {
     if (free_[static_cast<std::size_t>(i)]) continue;
     J.row(i).setZero();

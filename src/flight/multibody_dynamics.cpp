@@ -102,7 +102,9 @@ InsectMotion insectMotion(double beta, const BodyState& body, const JointAngles&
 }
 
 MultibodyDynamics::MultibodyDynamics(const Insect& insect, double gravity)
-    : insect_(insect), appendages_{insect.wings.right.plate, mirrored(insect.wings.left.plate), insect.abdomen}, gravity_(gravity) {
+    : insect_(insect),
+      appendages_{insect.wings.right.plate, mirrored(insect.wings.left.plate), insect.abdomen},
+      gravity_(gravity) {
   if (insect.bare_wing) {
     throw std::invalid_argument("multibody dynamics need an insect with a body, not a bare wing");
   }
@@ -111,7 +113,8 @@ MultibodyDynamics::MultibodyDynamics(const Insect& insect, double gravity)
 std::array<Eigen::Matrix<double, 6, 9>, 3> MultibodyDynamics::jointMaps(
     const InsectMotion& motion) const {
   std::array<Eigen::Matrix<double, 6, 9>, 3> X;
-  for (std::size_t i = 0; i < 3; ++i) X[i] = jointMap(appendages_[i], motion.body, motion.joints[i]);
+  for (std::size_t i = 0; i < 3; ++i)
+    X[i] = jointMap(appendages_[i], motion.body, motion.joints[i]);
   return X;
 }
 

@@ -28,13 +28,40 @@ class Row {
 
 const std::vector<std::string>& ReplayGuidance::columns() {
   static const std::vector<std::string> all = [] {
-    std::vector<std::string> names = {
-        "t",        "phi",      "phi_dot",   "phi_ddot",    "psi",          "psi_dot",
-        "psi_ddot", "theta_R",  "theta_R_dot", "theta_R_ddot", "rest_angle",  "phi_L",
-        "phi_L_dot", "phi_L_ddot", "psi_L",  "psi_L_dot",   "psi_L_ddot",   "theta_L",
-        "theta_L_dot", "theta_L_ddot", "rest_angle_L", "theta_A", "theta_A_dot", "theta_A_ddot",
-        "wx",       "wy",       "wz",        "wax",         "way",          "waz",
-        "phase",    "clipped",  "refused",   "lost"};
+    std::vector<std::string> names = {"t",
+                                      "phi",
+                                      "phi_dot",
+                                      "phi_ddot",
+                                      "psi",
+                                      "psi_dot",
+                                      "psi_ddot",
+                                      "theta_R",
+                                      "theta_R_dot",
+                                      "theta_R_ddot",
+                                      "rest_angle",
+                                      "phi_L",
+                                      "phi_L_dot",
+                                      "phi_L_ddot",
+                                      "psi_L",
+                                      "psi_L_dot",
+                                      "psi_L_ddot",
+                                      "theta_L",
+                                      "theta_L_dot",
+                                      "theta_L_ddot",
+                                      "rest_angle_L",
+                                      "theta_A",
+                                      "theta_A_dot",
+                                      "theta_A_ddot",
+                                      "wx",
+                                      "wy",
+                                      "wz",
+                                      "wax",
+                                      "way",
+                                      "waz",
+                                      "phase",
+                                      "clipped",
+                                      "refused",
+                                      "lost"};
     for (const char* kind : {"command_", "applied_"}) {
       for (const CommandInfo& info : kCommandTable) names.push_back(std::string(kind) + info.name);
     }

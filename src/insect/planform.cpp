@@ -142,7 +142,8 @@ Planform Planform::scaledTo(double span_wanted, double area_wanted) const {
 }
 
 Planform Planform::withoutTip(double share) const {
-  if (!(share >= 0.0 && share <= 0.9)) reject("share of the area that is cut off: must be in [0, 0.9]");
+  if (!(share >= 0.0 && share <= 0.9))
+    reject("share of the area that is cut off: must be in [0, 0.9]");
   if (share == 0.0) return *this;
   const auto cutAt = [this](double y) {
     return Planform(leading_, trailing_, y_root_, y, breaks_);

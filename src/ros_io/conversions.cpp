@@ -171,10 +171,17 @@ WingbeatCommand toMessage(const WingbeatChange& change) {
 }
 
 WingbeatChange fromMessage(const WingbeatCommand& command) {
-  return {command.amplitude,           command.flapping_mean,       command.frequency,
-          command.deviation_mean,      command.rest_angle,          command.abdomen_mean,
-          command.abdomen_amplitude,   command.amplitude_difference, command.flapping_difference,
-          command.deviation_difference, command.rest_angle_difference};
+  return {command.amplitude,
+          command.flapping_mean,
+          command.frequency,
+          command.deviation_mean,
+          command.rest_angle,
+          command.abdomen_mean,
+          command.abdomen_amplitude,
+          command.amplitude_difference,
+          command.flapping_difference,
+          command.deviation_difference,
+          command.rest_angle_difference};
 }
 
 GuidanceState toMessage(const GuidanceReport& report) {

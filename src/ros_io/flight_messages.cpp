@@ -234,8 +234,9 @@ void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& sta
   if (!step.surface.right.facets.empty()) {
     visualization_msgs::MarkerArray picture = pressureMarkers(
         step.surface, pressure_, insect.bare_wing, kLift * insect.meanChord(), stamp);
-    const visualization_msgs::MarkerArray legend = pressureLegend(
-        pressure_, insect.wings.right.planform.span(), baseLinkAttitude(step.interface.body), stamp);
+    const visualization_msgs::MarkerArray legend =
+        pressureLegend(pressure_, insect.wings.right.planform.span(),
+                       baseLinkAttitude(step.interface.body), stamp);
     picture.markers.insert(picture.markers.end(), legend.markers.begin(), legend.markers.end());
     out.push_back({topics::kPressure, stamp, std::move(picture), true});
   }

@@ -129,9 +129,10 @@ int inProcessMain(int argc, char** argv) {
                        "another type, or fly with nodes (in_process:=false)");
     requireProcesses(parameters, c);
     if (parameters.ranks > 1 && !c.mirrored)
-      throw InputError("ranks = " + std::to_string(parameters.ranks) +
-                       ": in one process the flows of two wings run on one MPI process; use ranks:=1, "
-                       "or fly with nodes (in_process:=false)");
+      throw InputError(
+          "ranks = " + std::to_string(parameters.ranks) +
+          ": in one process the flows of two wings run on one MPI process; use ranks:=1, "
+          "or fly with nodes (in_process:=false)");
     const std::string out = outputDirectory(parameters, c);
     std::cout << plannedRun(parameters, c, false);
     FlightRun run(c, out, !parameters.resume.empty(), parameters.ranks, {});

@@ -22,7 +22,8 @@ using Faults = std::vector<std::string>;
 /// Known keys: of a command line (`where` is empty), or of the parameter server.
 std::string known(const std::string& where) {
   const std::string common =
-      "case, out, resume, directory, fluid, grid, wings, guidance, guidance_file, flaps, steps_per_flap, "
+      "case, out, resume, directory, fluid, grid, wings, guidance, guidance_file, flaps, "
+      "steps_per_flap, "
       "record, fields_every, checkpoint_every, ranks, paused, ";
   return common + (where.empty() ? "plan" : "watchdog, checkpoints");
 }
@@ -64,8 +65,8 @@ void take(const std::string& key, const std::string& value, const std::string& w
     // of the coordinator to the solver nodes: participant_node.cpp
   } else if (key == "directory") {
     out.directory = value;
-  } else if (oneOf(key, {"fluid", "grid", "wings", "guidance", "guidance_file", "flaps", "steps_per_flap",
-                         "record", "fields_every", "checkpoint_every"})) {
+  } else if (oneOf(key, {"fluid", "grid", "wings", "guidance", "guidance_file", "flaps",
+                         "steps_per_flap", "record", "fields_every", "checkpoint_every"})) {
     out.overrides[key] = value;
   } else if (key == "plan" && where.empty()) {
     out.plan = value == "true";

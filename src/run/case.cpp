@@ -35,10 +35,10 @@ Case readCase(Section& root, Faults& faults) {
     faults.add("wings = independent: a bare wing is one wing; set wings to mirrored");
   const auto insect = readInsect(std::move(insect_section), c.mirrored, faults);
   if (insect) c.insect = *insect;
-  const CaseWind wind = readFluid(root.section("fluid"), kind == "butterfly" && c.mirrored, c, faults);
+  const CaseWind wind =
+      readFluid(root.section("fluid"), kind == "butterfly" && c.mirrored, c, faults);
   readGrid(root.section("grid"), c, faults);
-  const double chord =
-      insect ? insect->meanChord() : std::numeric_limits<double>::infinity();
+  const double chord = insect ? insect->meanChord() : std::numeric_limits<double>::infinity();
   const CaseMotion motion = readMotion(root.section("motion"), kind == "bare_wing", chord, faults);
   const InitialValues initial = readInitial(root);
   c.free = readFree(root.section("free"), c.mirrored);

@@ -133,7 +133,8 @@ StartValues startValues(const Case& c, const InitialValues& initial, const Presc
   if (initial.roll || initial.yaw || initial.roll_rate || initial.yaw_rate)
     start.attitude = startAttitude(initial, body);
   if (c.free[kThetaR]) {
-    start.theta_R = completed(initial.theta_R, initial.theta_R_dot, at_start.angles.wings.right.theta);
+    start.theta_R =
+        completed(initial.theta_R, initial.theta_R_dot, at_start.angles.wings.right.theta);
   }
   return start;
 }

@@ -170,10 +170,12 @@ std::optional<Insect> readInsect(Section section, bool mirrored, Faults& faults)
   Insect insect =
       bare ? makeBareWing(name, wing, any) : makeButterfly(name, body, abdomen, joint, wing, any);
   faults.add(insect.problems());
-  for (const auto& [key, side] : {std::pair{"right_wing", Side::kRight}, {"left_wing", Side::kLeft}}) {
+  for (const auto& [key, side] :
+       {std::pair{"right_wing", Side::kRight}, {"left_wing", Side::kLeft}}) {
     if (section.has(key) && mirrored)
-      section.fault(key, ": must not be given while one wing is the mirror image of the other; set "
-                         "wings to independent, or change insect/wing");
+      section.fault(key,
+                    ": must not be given while one wing is the mirror image of the other; set "
+                    "wings to independent, or change insect/wing");
     readOwnWing(section, key, wing, insect.wings[side], faults);
   }
   section.finish();

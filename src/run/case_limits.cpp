@@ -68,9 +68,10 @@ void checkMirrored(const Case& c, const CaseMotion& motion, const InitialValues&
   }
   for (const auto& [name, i] : {std::pair{"y", kY}, {"roll", kRoll}, {"yaw", kYaw}}) {
     if (c.free[i])
-      faults.add(std::string("free/") + name +
-                 " = true: must be false while one wing is the mirror image of the other; set it to "
-                 "false, or wings to independent");
+      faults.add(
+          std::string("free/") + name +
+          " = true: must be false while one wing is the mirror image of the other; set it to "
+          "false, or wings to independent");
   }
 }
 

@@ -154,9 +154,8 @@ InitialValues readInitial(Section& root) {
   InitialValues initial;
   if (!root.has("initial")) {
     Section section = root.putSection("initial");
-    for (const char* key :
-         {"position", "velocity", "theta_B", "theta_B_dot", "theta_R", "theta_R_dot", "roll", "yaw",
-          "roll_rate", "yaw_rate"}) {
+    for (const char* key : {"position", "velocity", "theta_B", "theta_B_dot", "theta_R",
+                            "theta_R_dot", "roll", "yaw", "roll_rate", "yaw_rate"}) {
       section.put(key, std::string("none"));
     }
     return initial;

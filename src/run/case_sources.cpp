@@ -122,9 +122,10 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& fau
     }
     const auto target = known.find(key);
     if (target == known.end()) {
-      faults.add(key + ":=" + value +
-                 " is not a known override: known are fluid, grid, wings, guidance, guidance_file, flaps, "
-                 "steps_per_flap, record, fields_every, checkpoint_every; correct or remove it");
+      faults.add(
+          key + ":=" + value +
+          " is not a known override: known are fluid, grid, wings, guidance, guidance_file, flaps, "
+          "steps_per_flap, record, fields_every, checkpoint_every; correct or remove it");
       continue;
     }
     const auto [section, name] = target->second;

@@ -56,8 +56,7 @@ class SinkChain : public StepSink {
 
 std::unique_ptr<FluidModel> makeFluid(const Case& c, Side side) {
   const Planform& planform = c.insect.wings[side].planform;
-  if (c.fluid == FluidKind::kQuasiSteady)
-    return makeQuasiSteady(planform, c.air, c.blade_element);
+  if (c.fluid == FluidKind::kQuasiSteady) return makeQuasiSteady(planform, c.air, c.blade_element);
   return makeNavierStokes(planform, c.air, c.grid, c.watchdog_s);
 }
 

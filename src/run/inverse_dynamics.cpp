@@ -61,7 +61,7 @@ RequiredLoads requiredAt(const MultibodyDynamics& dynamics, const Case& c,
   const InsectMotion motion = insectMotion(c.insect.beta, body, angles);
   const Vector15d required = dynamics.inertialForce(motion) - dynamics.gravityForce(motion) -
                              dynamics.airForce(motion, {right, right});
-  return {row[0],      theta, required.segment<3>(6), required(13), required(0),
+  return {row[0],      theta,      required.segment<3>(6), required(13), required(0),
           required(2), required(4)};
 }
 
@@ -93,7 +93,8 @@ void printSummary(const std::vector<RequiredLoads>& rows, const Case& c, std::os
       rms(rows, &RequiredLoads::force_x), rms(rows, &RequiredLoads::force_z),
       rms(rows, &RequiredLoads::pitch), fit.torque_rms, fit.power, fit.spring_kappa,
       fit.spring_theta_0 * kDegrees, 100.0 * fit.spring_share, fit.kappa, fit.theta_0 * kDegrees,
-      fit.damping, 100.0 * fit.damped_share, c.insect.wings.right.kappa, c.insect.wings.right.theta_0 * kDegrees);
+      fit.damping, 100.0 * fit.damped_share, c.insect.wings.right.kappa,
+      c.insect.wings.right.theta_0 * kDegrees);
   out << text;
 }
 

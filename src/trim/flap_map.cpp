@@ -65,7 +65,7 @@ FlapMap::FlapMap(const Case& c, const std::string& config_dir,
   }
   if (!faults.empty()) throw InputError(faults);
   per_flap_ = static_cast<std::uint32_t>(steps);
-  const bool is_free[6] = {c.free[kX],     c.free[kZ],          c.free[kPitch],
+  const bool is_free[6] = {c.free[kX],     c.free[kZ],      c.free[kPitch],
                            c.free[kPitch], c.free[kThetaR], c.free[kThetaR]};
   for (int i = 0; i < 6; ++i) {
     if (is_free[i]) active_.push_back(i);
@@ -75,8 +75,8 @@ FlapMap::FlapMap(const Case& c, const std::string& config_dir,
 TrimPoint FlapMap::start() const {
   const PrescribedState s = base_.motion->at(base_.time.t_start);
   TrimPoint point;
-  point.state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd, s.angles.wings.right.theta.q,
-      s.angles.wings.right.theta.qd;
+  point.state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd,
+      s.angles.wings.right.theta.q, s.angles.wings.right.theta.qd;
   point.parameters.resize(static_cast<Eigen::Index>(parameters_.size()));
   const CaseEdit edit(base_.resolved_yaml);
   for (std::size_t i = 0; i < parameters_.size(); ++i) {

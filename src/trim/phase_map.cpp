@@ -135,8 +135,8 @@ PhaseMap::PhaseMap(const Case& c, int samples, double time_constant)
 FlapState PhaseMap::prescribedState(int phase) const {
   const PrescribedState s = case_.motion->at(timeOf(phase));
   FlapState state;
-  state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd, s.angles.wings.right.theta.q,
-      s.angles.wings.right.theta.qd;
+  state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd,
+      s.angles.wings.right.theta.q, s.angles.wings.right.theta.qd;
   return state;
 }
 

@@ -75,10 +75,12 @@ std::vector<geometry_msgs::TransformStamped> movingTransforms(const Insect& inse
   out.reserve(4);
   out.push_back(transform(frames::kWorld, frames::kBaseLink, nedToEnu() * body.x,
                           baseLinkAttitude(body), stamp));
-  out.push_back(transform(frames::kStrokePlane, frames::kRightWing, R_SB * insect.wings.right.plate.mu,
-                          R_SB * wingAttitude(Side::kRight, insect.beta, angles.wings.right), stamp));
+  out.push_back(
+      transform(frames::kStrokePlane, frames::kRightWing, R_SB * insect.wings.right.plate.mu,
+                R_SB * wingAttitude(Side::kRight, insect.beta, angles.wings.right), stamp));
   if (insect.bare_wing) return out;
-  out.push_back(transform(frames::kStrokePlane, frames::kLeftWing, R_SB * mirrored(insect.wings.left.plate).mu,
+  out.push_back(transform(frames::kStrokePlane, frames::kLeftWing,
+                          R_SB * mirrored(insect.wings.left.plate).mu,
                           R_SB * wingAttitude(Side::kLeft, insect.beta, angles.wings.left), stamp));
   out.push_back(transform(frames::kBodyFrd, frames::kAbdomen, insect.abdomen.mu,
                           abdomenAttitude(angles), stamp));

@@ -22,8 +22,9 @@ float packed(const std_msgs::ColorRGBA& colour) {
 
 }  // namespace
 
-sensor_msgs::PointCloud2 vortexCloud(const PerWing<std::vector<VortexPoint>>& points, const Insect& insect,
-                                     const JointAngles& angles, const ros::Time& stamp) {
+sensor_msgs::PointCloud2 vortexCloud(const PerWing<std::vector<VortexPoint>>& points,
+                                     const Insect& insect, const JointAngles& angles,
+                                     const ros::Time& stamp) {
   static const char* const kFields[] = {"x", "y", "z", "rgb", "q", "omega_y"};
   sensor_msgs::PointCloud2 cloud;
   cloud.header.stamp = stamp;
@@ -55,7 +56,8 @@ sensor_msgs::PointCloud2 vortexCloud(const PerWing<std::vector<VortexPoint>>& po
     // In the mirror the left wing is a right one.
     const Eigen::Matrix3d Q = wingAttitude(Side::kRight, insect.beta, angles.wings[side]);
     for (const VortexPoint& p : points[side]) {
-      Eigen::Vector3d r = insect.wings[side].plate.mu + Q * Eigen::Vector3d(p.x, p.y, p.z);  // body axes
+      Eigen::Vector3d r =
+          insect.wings[side].plate.mu + Q * Eigen::Vector3d(p.x, p.y, p.z);  // body axes
       if (side == Side::kLeft) r.y() = -r.y();
       const Eigen::Vector3f f = (frdToFlu() * r).cast<float>();
       const float share = largest > 0.0f ? std::abs(p.omega_y) / largest : 0.0f;

@@ -27,7 +27,8 @@ double WingPitchSolver::momentWithoutSpring(const BodyState& body, JointAngles a
 
 double WingPitchSolver::acceleration(const BodyState& body, const JointAngles& angles,
                                      const Loads& loads, double rest_angle) const {
-  const double spring = -wing().kappa * (angles.wings[side_].theta.q - (wing().theta_0 + rest_angle));
+  const double spring =
+      -wing().kappa * (angles.wings[side_].theta.q - (wing().theta_0 + rest_angle));
   return (momentWithoutSpring(body, angles, loads) + spring) / wing().plate.J(1, 1);
 }
 

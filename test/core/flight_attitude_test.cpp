@@ -19,9 +19,7 @@ Newmark newmarkOf(double dt) {
   return newmark;
 }
 
-double unorthogonal(const Matrix3d& R) {
-  return (R.transpose() * R - Matrix3d::Identity()).norm();
-}
+double unorthogonal(const Matrix3d& R) { return (R.transpose() * R - Matrix3d::Identity()).norm(); }
 
 /// Level n+1 with the guess equal to the answer; joints rest, no air.
 BodyState implicitStep(const FlightSolver& solver, const BodyState& n) {

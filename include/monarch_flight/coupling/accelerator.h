@@ -105,13 +105,14 @@ class IqnIls : public Accelerator {
   std::optional<Trial> previous_;
 };
 
-/// Added-mass quasi-Newton. The loads near a trial are L(d) = L^k + K (u(d) - u^k) + M (a(d) - a^k),
-/// u and a being the velocity and acceleration of the wing, K and M their Jacobian (LoadOperator),
-/// for each wing whose air is solved; flight and wing are the step model. Newton's method solves that coupled problem to the last digit
-/// without the air; d^{k+1} is its solution and L(d^{k+1}) the predicted loads. K is exact within a
-/// step of a flow that is affine; from step to step it is corrected by Broyden's update with the
-/// trials of each step, and asked for again every `operator_every` steps, after a step that needed
-/// more than three trials, and in every step where it costs nothing.
+/// Added-mass quasi-Newton. The loads near a trial are L(d) = L^k + K (u(d) - u^k) + M (a(d) -
+/// a^k), u and a being the velocity and acceleration of the wing, K and M their Jacobian
+/// (LoadOperator), for each wing whose air is solved; flight and wing are the step model. Newton's
+/// method solves that coupled problem to the last digit without the air; d^{k+1} is its solution
+/// and L(d^{k+1}) the predicted loads. K is exact within a step of a flow that is affine; from step
+/// to step it is corrected by Broyden's update with the trials of each step, and asked for again
+/// every `operator_every` steps, after a step that needed more than three trials, and in every step
+/// where it costs nothing.
 class AddedMassNewton : public Accelerator {
  public:
   /// `model` must outlive the strategy and stand at the step.

@@ -25,8 +25,8 @@ enum class Role : std::uint8_t {
   kFluidLeft = 4
 };
 inline constexpr std::size_t kRoles = 5;
-inline constexpr std::array<Role, kRoles> kAllRoles = {
-    Role::kFluid, Role::kFlight, Role::kWing, Role::kGuidance, Role::kFluidLeft};
+inline constexpr std::array<Role, kRoles> kAllRoles = {Role::kFluid, Role::kFlight, Role::kWing,
+                                                       Role::kGuidance, Role::kFluidLeft};
 inline constexpr PerWing<Role> kFluids = {Role::kFluid, Role::kFluidLeft};
 const char* roleName(Role role);
 
@@ -81,7 +81,7 @@ struct Reply {
   std::optional<PrescribedState> prescribed;  ///< of guidance that owns the motion
   std::optional<WingbeatChange> command;      ///< of guidance that leads the case's own wingbeat
   GuidanceReport guidance;                    ///< filled by guidance
-  Loads loads;  ///< of its wing, filled by the fluid
+  Loads loads;                                ///< of its wing, filled by the fluid
   std::optional<LoadOperator>
       jacobian;             ///< of the loads, at the request's motion; only when asked for
   FluidReport report;       ///< filled by the fluid

@@ -68,8 +68,8 @@ class SolverParticipant : public Participant {
   Reply last_reply_;
 };
 
-/// The air: loads on its wing for the guessed interface. The left wing flies in a mirror, so that it
-/// is a right wing for the flow (state.h).
+/// The air: loads on its wing for the guessed interface. The left wing flies in a mirror, so that
+/// it is a right wing for the flow (state.h).
 class FluidParticipant : public SolverParticipant {
  public:
   FluidParticipant(Side side, const CoupledModel& model, std::unique_ptr<FluidModel> fluid);

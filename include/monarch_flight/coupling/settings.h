@@ -30,8 +30,7 @@ struct CouplingSettings {
   double omega_min = 0.05, omega_max = 1.5;  ///< bounds of Aitken's factor (absolute value)
   int reuse_steps = 4;                       ///< earlier steps that iqn_ils learns from, 0 to 20
   int operator_every = 250;  ///< steps between load operators asked of a flow that pays for them
-  double tolerance =
-      1e-8;  ///< on each dimensionless displacement residual: lengths over c, angles
+  double tolerance = 1e-8;  ///< on each dimensionless displacement residual: lengths over c, angles
   /// On the loads, relative to their running scales: change of the air's force and moment between
   /// sub-iterations, and what inertia is out of balance (the residual of each free acceleration).
   double load_tolerance = 1e-6;
@@ -77,9 +76,9 @@ struct CommittedStep {
   /// Spectral radius of M_s^-1 M_a over the free coordinates: inertia of the air over that of the
   /// insect; 0 where nothing is free.
   double added_mass_ratio = 0.0;
-  /// Work that the air does on the solved wings (mirrored: the right one) in this step: its loads along the motion that the air
-  /// saw, and its generalised forces along the motion that flight and wing answered [J]. They agree
-  /// as far as the step has converged.
+  /// Work that the air does on the solved wings (mirrored: the right one) in this step: its loads
+  /// along the motion that the air saw, and its generalised forces along the motion that flight and
+  /// wing answered [J]. They agree as far as the step has converged.
   double work_fluid = 0.0, work_structure = 0.0;
   FluidReport fluid;  ///< of both wings together
   // The left wing's in the mirror (state.h); mirrored wings: the same twice.

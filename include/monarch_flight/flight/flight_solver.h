@@ -10,14 +10,14 @@ using BodyVector = Eigen::Matrix<double, 6, 1>;
 /// Level n+1 of the body by Newmark from level n: what is free with `accelerations` (x'', y'', z'',
 /// Omega'; the entries of prescribed coordinates are not used), the rest from `prescribed`.
 /// Attitude moves on the group, R_{n+1} = R_n exp(d^), d being Newmark's increment of the angular
-/// velocity in body axes (Bruls, Cardona & Arnold 2012); where only some of its components are free,
-/// the others are those of `prescribed`. A body that only pitches goes on by its angle alone, so
-/// that it stays in its plane to the last bit.
+/// velocity in body axes (Bruls, Cardona & Arnold 2012); where only some of its components are
+/// free, the others are those of `prescribed`. A body that only pitches goes on by its angle alone,
+/// so that it stays in its plane to the last bit.
 BodyState advancedBody(const BodyState& n, const BodyState& prescribed, const FreeCoordinates& free,
                        const Newmark& newmark, const BodyVector& accelerations);
 
-/// Flight: what is free of the body moves by the equations of motion of the whole insect, everything
-/// else is prescribed.
+/// Flight: what is free of the body moves by the equations of motion of the whole insect,
+/// everything else is prescribed.
 class FlightSolver {
  public:
   /// Throws InputError when a bare wing shall move freely. `gravity` along +z of NED [m/s^2].

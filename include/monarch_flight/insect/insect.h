@@ -33,7 +33,7 @@ struct Insect {
   double body_length = 0.0, body_width = 0.0;        ///< cylinder, for pictures and inertia [m]
   double abdomen_length = 0.0, abdomen_width = 0.0;  ///< [m]
   Appendage abdomen;
-  double beta = 0.0;  ///< stroke plane angle [rad]
+  double beta = 0.0;    ///< stroke plane angle [rad]
   PerWing<Wing> wings;  ///< a bare wing: the right one, and a copy
 
   double totalMass() const;

@@ -16,8 +16,8 @@ using CoordinateVector = Eigen::Matrix<double, kCoordinates, 1>;
 using CoordinateMatrix = Eigen::Matrix<double, kCoordinates, kCoordinates>;
 
 struct CoordinateInfo {
-  const char* name;    ///< in messages and tables
-  bool translation;    ///< a length, else an angle
+  const char* name;  ///< in messages and tables
+  bool translation;  ///< a length, else an angle
 };
 inline constexpr std::array<CoordinateInfo, kCoordinates> kCoordinateTable = {{
     {"x", true},

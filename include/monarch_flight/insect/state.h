@@ -13,9 +13,9 @@ struct Coordinate {
   double qdd = 0.0;
 };
 
-/// The two wings. Whatever belongs to the left one - angles, planform, loads - is told as its mirror
-/// image across the body's x-z plane: as if it were a right wing. In a symmetric flight both sides
-/// have the same numbers.
+/// The two wings. Whatever belongs to the left one - angles, planform, loads - is told as its
+/// mirror image across the body's x-z plane: as if it were a right wing. In a symmetric flight both
+/// sides have the same numbers.
 enum class Side : std::uint8_t { kRight = 0, kLeft = 1 };
 inline constexpr std::array<Side, 2> kSides = {Side::kRight, Side::kLeft};
 

@@ -17,10 +17,10 @@ struct WingbeatChange {
   double abdomen_mean = 0.0;       ///< added to theta_A [rad]
   double abdomen_amplitude = 0.0;  ///< of the abdomen, relative
   // Between the wings, for wings that are independent.
-  double amplitude_difference = 0.0;      ///< of `amplitude`
-  double flapping_difference = 0.0;       ///< of `flapping_mean` [rad]
-  double deviation_difference = 0.0;      ///< of `deviation_mean` [rad]
-  double rest_angle_difference = 0.0;     ///< of `rest_angle` [rad]
+  double amplitude_difference = 0.0;   ///< of `amplitude`
+  double flapping_difference = 0.0;    ///< of `flapping_mean` [rad]
+  double deviation_difference = 0.0;   ///< of `deviation_mean` [rad]
+  double rest_angle_difference = 0.0;  ///< of `rest_angle` [rad]
 };
 
 /// The commands one by one, for everything that goes through all of them: index in kCommandTable.
