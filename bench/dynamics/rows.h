@@ -40,6 +40,7 @@ DynamicsRows checkConservation(const DynamicsFolders& folders);
 DynamicsRows checkEnergy(const DynamicsFolders& folders);
 DynamicsRows checkReducedForm(const DynamicsFolders& folders);
 DynamicsRows checkNewmark(const DynamicsFolders& folders);
+DynamicsRows checkSixDof(const DynamicsFolders& folders);
 DynamicsRows checkExactMotions(const DynamicsFolders& folders);
 DynamicsRows checkPublished(const DynamicsFolders& folders);
 DynamicsRows checkSimbody(const DynamicsFolders& folders);

@@ -2,8 +2,9 @@
 // motion, both springs, gravity and applied loads, over one flap.
 #include <Simbody.h>
 
-#include "dynamics/ode.h"
 #include "dynamics/rows.h"
+#include "dynamics/six_dof.h"
+#include "monarch_flight/math/rotation.h"
 #include "monarch_flight/run/case.h"
 
 namespace monarch_flight::verify {
@@ -75,10 +76,18 @@ SimTK::MobilizedBody::Pin pin(SimTK::MobilizedBody& parent, const SimTK::Transfo
   return {parent, SimTK::Transform(frame.R() * R, frame.p()), body, SimTK::Transform(R)};
 }
 
+/// Of body and hinges at one time.
+struct EngineState {
+  Vector3d x, v, Omega_B;
+  Eigen::Matrix3d R_IB;
+  PerWing<double> theta, theta_dot;
+};
+
 class Engine {
  public:
+  using WingLoads = std::function<PerWing<Loads>(double t)>;
   Engine(const Insect& insect, double gravity, std::shared_ptr<const PrescribedMotion> motion,
-         double frequency)
+         const WingLoads& loads)
       : matter_(system_), forces_(system_), motion_(std::move(motion)) {
     SimTK::Force::UniformGravity(forces_, matter_, SimTK::Vec3(0, 0, gravity));
     body_ = SimTK::MobilizedBody::Free(matter_.Ground(), SimTK::Transform(),
@@ -91,18 +100,21 @@ class Engine {
         abdomen, [](const JointAngles& a) { return a.theta_A; }, 1.0);
     right_ = wing(Side::kRight, insect);
     left_ = wing(Side::kLeft, insect);
-    const auto on_right = [frequency](double t) { return smoothLoads(frequency, t); };
-    SimTK::Force::Custom(forces_, new WingLoad(right_, on_right));
+    SimTK::Force::Custom(forces_,
+                         new WingLoad(right_, [loads](double t) { return loads(t).right; }));
     SimTK::Force::Custom(
-        forces_, new WingLoad(left_, [on_right](double t) { return mirrored(on_right(t)); }));
+        forces_, new WingLoad(left_, [loads](double t) { return mirrored(loads(t).left); }));
     state_ = system_.realizeTopology();
   }
 
   void start(const PrescribedState& s) {
-    body_.setQToFitTransform(
-        state_, SimTK::Transform(SimTK::Rotation(s.body.pitch.q, SimTK::YAxis), vec(s.body.x)));
-    body_.setUToFitVelocity(state_,
-                            SimTK::SpatialVec(SimTK::Vec3(0, s.body.pitch.qd, 0), vec(s.body.v)));
+    SimTK::Mat33 R;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) R(i, j) = s.body.R_IB(i, j);
+    }
+    body_.setQToFitTransform(state_, SimTK::Transform(SimTK::Rotation(R), vec(s.body.x)));
+    body_.setUToFitVelocity(
+        state_, SimTK::SpatialVec(vec(s.body.R_IB * s.body.Omega_B), vec(s.body.v)));
     for (Side side : kSides) {
       SimTK::MobilizedBody::Pin& wing = side == Side::kRight ? right_ : left_;
       wing.setOneQ(state_, 0, s.angles.wings[side].theta.q);
@@ -112,22 +124,27 @@ class Engine {
     system_.prescribe(state_);
   }
 
-  /// (x, z, theta_B, theta_R) and rates at these times.
-  std::vector<Eigen::Matrix<double, 8, 1>> run(const std::vector<double>& times) {
+  std::vector<EngineState> run(const std::vector<double>& times) {
     SimTK::RungeKuttaMersonIntegrator integrator(system_);
     integrator.setAccuracy(1e-11);
     SimTK::TimeStepper stepper(system_, integrator);
     stepper.initialize(state_);
-    std::vector<Eigen::Matrix<double, 8, 1>> answers;
+    std::vector<EngineState> answers;
     for (double t : times) {
       stepper.stepTo(t);
       const SimTK::State& s = integrator.getState();
       system_.realize(s, SimTK::Stage::Velocity);
-      const SimTK::Vec3 x = body_.getBodyOriginLocation(s), v = body_.getBodyOriginVelocity(s);
+      const auto vector = [](const SimTK::Vec3& a) { return Vector3d(a[0], a[1], a[2]); };
+      EngineState answer;
+      answer.x = vector(body_.getBodyOriginLocation(s));
+      answer.v = vector(body_.getBodyOriginVelocity(s));
       const SimTK::Rotation& R = body_.getBodyRotation(s);
-      Eigen::Matrix<double, 8, 1> answer;
-      answer << x[0], x[2], std::atan2(-R[2][0], R[0][0]), right_.getOneQ(s, 0), v[0], v[2],
-          body_.getBodyAngularVelocity(s)[1], right_.getOneU(s, 0);
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) answer.R_IB(i, j) = R[i][j];
+      }
+      answer.Omega_B = answer.R_IB.transpose() * vector(body_.getBodyAngularVelocity(s));
+      answer.theta = {right_.getOneQ(s, 0), left_.getOneQ(s, 0)};
+      answer.theta_dot = {right_.getOneU(s, 0), left_.getOneU(s, 0)};
       answers.push_back(answer);
     }
     return answers;
@@ -172,37 +189,101 @@ class Engine {
   SimTK::State state_;
 };
 
+std::vector<double> twentyTimes(double period) {
+  std::vector<double> times;
+  for (int n = 1; n <= 20; ++n) times.push_back(n * period / 20);
+  return times;
+}
+
+/// The flight `system` from `y`, at these times.
+template <typename System, typename See>
+void follow(const System& system, OdeState y, const std::vector<double>& times, const See& see) {
+  double t = 0.0;
+  for (std::size_t n = 0; n < times.size(); ++n) {
+    integrate(system, y, t, times[n], 200, [](const OdeState&, double) {});
+    t = times[n];
+    see(n, y);
+  }
+}
+
+constexpr char kMethod[] = "Runge-Kutta-Merson, accuracy 1e-11";
+
+void addLongitudinal(const Case& c, DynamicsRows& rows) {
+  const double f = 1.0 / c.time.period;
+  const LongitudinalFlight flight(c.insect, c.gravity, c.motion,
+                                  [f](double t) { return smoothLoads(f, t); });
+  Engine engine(c.insect, c.gravity, c.motion, [f](double t) {
+    return PerWing<Loads>{smoothLoads(f, t), smoothLoads(f, t)};
+  });
+  engine.start(c.motion->at(0.0));
+  const std::vector<double> times = twentyTimes(c.time.period);
+  const std::vector<EngineState> theirs = engine.run(times);
+  using Row = Eigen::Matrix<double, 8, 1>;
+  Row scale = Row::Zero(), worst = Row::Zero();
+  follow(flight, flight.state(0.0), times, [&](std::size_t n, const OdeState& y) {
+    const EngineState& s = theirs[n];
+    Row answer;
+    answer << s.x.x(), s.x.z(), std::atan2(-s.R_IB(2, 0), s.R_IB(0, 0)), s.theta.right, s.v.x(),
+        s.v.z(), s.Omega_B.y(), s.theta_dot.right;
+    const Eigen::Map<const Row> ours(y.data());
+    worst = worst.cwiseMax((ours - answer).cwiseAbs());
+    scale = scale.cwiseMax(answer.cwiseAbs());
+  });
+  const char* names[] = {"x", "z", "theta_B", "theta_R", "x'", "z'", "theta_B'", "theta_R'"};
+  for (int i = 0; i < 8; ++i) {
+    rows.push_back({"simbody", std::string(names[i]) + ", largest difference in a flap / largest",
+                    kMethod, worst(i), scale(i), worst(i) / scale(i), 1e-6});
+  }
+}
+
+/// Six degrees of freedom, both hinges, wings that differ in planform, hinge, motion and loads.
+void addSixDof(Case c, DynamicsRows& rows) {
+  const double f = 1.0 / c.time.period;
+  Wing& damaged = c.insect.wings.left;
+  const double mass = 0.8 * damaged.plate.m, stiffness = 0.7 * damaged.kappa;
+  const Vector3d root = damaged.plate.mu;
+  damaged.planform = damaged.planform.withoutTip(0.2);
+  damaged.plate = plateWing(damaged.planform, mass, root);
+  damaged.kappa = stiffness;
+  const auto motion = std::make_shared<CrookedMotion>(c.motion, c.time.period);
+  const auto loads = [f](double t) { return crookedLoads(f, t); };
+  const SixDofFlight flight(c.insect, c.gravity, motion, loads);
+  Engine engine(c.insect, c.gravity, motion, loads);
+  engine.start(motion->at(0.0));
+  const std::vector<double> times = twentyTimes(c.time.period);
+  const std::vector<EngineState> theirs = engine.run(times);
+  Eigen::Matrix<double, 6, 1> scale = Eigen::Matrix<double, 6, 1>::Zero(), worst = scale;
+  follow(flight, SixDofFlight::state(motion->at(0.0)), times, [&](std::size_t n, const OdeState& y) {
+    const EngineState& s = theirs[n];
+    const PrescribedState ours = flight.motion(y, times[n]);
+    const auto& [right, left] = ours.angles.wings;
+    // In its true axes the left wing pitches as its mirror image does.
+    Eigen::Matrix<double, 6, 1> difference, size;
+    difference << (ours.body.x - s.x).norm(), logSO3(ours.body.R_IB.transpose() * s.R_IB).norm(),
+        std::hypot(right.theta.q - s.theta.right, left.theta.q - s.theta.left),
+        (ours.body.v - s.v).norm(), (ours.body.Omega_B - s.Omega_B).norm(),
+        std::hypot(right.theta.qd - s.theta_dot.right, left.theta.qd - s.theta_dot.left);
+    size << s.x.norm(), 1.0, std::hypot(s.theta.right, s.theta.left), s.v.norm(), s.Omega_B.norm(),
+        std::hypot(s.theta_dot.right, s.theta_dot.left);
+    worst = worst.cwiseMax(difference);
+    scale = scale.cwiseMax(size);
+  });
+  const char* names[] = {"position", "attitude", "both wings' pitch", "velocity",
+                         "angular velocity", "both wings' pitch rate"};
+  for (int i = 0; i < 6; ++i) {
+    rows.push_back({"simbody six_dof",
+                    std::string(names[i]) + ", largest difference in a crooked flap / largest",
+                    kMethod, worst(i), scale(i), worst(i) / scale(i), 1e-6});
+  }
+}
+
 }  // namespace
 
 DynamicsRows checkSimbody(const DynamicsFolders& folders) {
   const Case c = loadCase("climb_printed", {}, folders.config);
-  const double f = 1.0 / c.time.period;
-  const LongitudinalFlight flight(c.insect, c.gravity, c.motion,
-                                  [f](double t) { return smoothLoads(f, t); });
-  constexpr int kTimes = 20;
-  Engine engine(c.insect, c.gravity, c.motion, f);
-  engine.start(c.motion->at(0.0));
-  std::vector<double> times;
-  for (int n = 1; n <= kTimes; ++n) times.push_back(n * c.time.period / kTimes);
-  const auto theirs = engine.run(times);
-
-  OdeState y = flight.state(0.0);
-  Eigen::Matrix<double, 8, 1> scale = Eigen::Matrix<double, 8, 1>::Zero(), worst = scale;
-  double t = 0.0;
-  for (int n = 0; n < kTimes; ++n) {
-    integrate(flight, y, t, times[n], 200, [](const OdeState&, double) {});
-    t = times[n];
-    const Eigen::Map<const Eigen::Matrix<double, 8, 1>> ours(y.data());
-    worst = worst.cwiseMax((ours - theirs[n]).cwiseAbs());
-    scale = scale.cwiseMax(theirs[n].cwiseAbs());
-  }
-  const char* names[] = {"x", "z", "theta_B", "theta_R", "x'", "z'", "theta_B'", "theta_R'"};
   DynamicsRows rows;
-  for (int i = 0; i < 8; ++i) {
-    rows.push_back({"simbody", std::string(names[i]) + ", largest difference in a flap / largest",
-                    "Runge-Kutta-Merson, accuracy 1e-11", worst(i), scale(i), worst(i) / scale(i),
-                    1e-6});
-  }
+  addLongitudinal(c, rows);
+  addSixDof(c, rows);
   return rows;
 }
 

@@ -4,7 +4,6 @@
 
 #include "monarch_flight/fluid/grid.h"
 #include "monarch_flight/math/errors.h"
-#include "monarch_flight/math/rotation.h"
 #include "monarch_flight/run/wing_speeds.h"
 #include "run/case_parts.h"
 
@@ -17,18 +16,6 @@ std::optional<StartValue> completed(const std::optional<double>& q, const std::o
                                     const Coordinate& prescribed) {
   if (!q && !qd) return std::nullopt;
   return StartValue{q.value_or(prescribed.q), qd.value_or(prescribed.qd)};
-}
-
-StartAttitude startAttitude(const InitialValues& initial, const BodyState& body) {
-  const Eigen::Vector3d angles = rollPitchYaw(body.R_IB);
-  StartAttitude start;
-  start.R_IB = rotationZ(initial.yaw.value_or(angles.z())) *
-               rotationY(initial.theta_B.value_or(angles.y())) *
-               rotationX(initial.roll.value_or(angles.x()));
-  start.Omega_B = {initial.roll_rate.value_or(body.Omega_B.x()),
-                   initial.theta_B_dot.value_or(body.Omega_B.y()),
-                   initial.yaw_rate.value_or(body.Omega_B.z())};
-  return start;
 }
 
 std::optional<double> component(const std::optional<Eigen::Vector3d>& v, int i) {
@@ -115,9 +102,9 @@ StartValues startValues(const Case& c, const InitialValues& initial, const Presc
   needsFree("theta_B", initial.theta_B, c.free[kPitch], "pitch");
   needsFree("theta_B_dot", initial.theta_B_dot, c.free[kPitch], "pitch");
   needsFree("roll", initial.roll, c.free[kRoll], "roll");
-  needsFree("roll_rate", initial.roll_rate, c.free[kRoll], "roll");
+  needsFree("roll_dot", initial.roll_dot, c.free[kRoll], "roll");
   needsFree("yaw", initial.yaw, c.free[kYaw], "yaw");
-  needsFree("yaw_rate", initial.yaw_rate, c.free[kYaw], "yaw");
+  needsFree("yaw_dot", initial.yaw_dot, c.free[kYaw], "yaw");
   needsFree("theta_R", initial.theta_R, c.free[kThetaR], "wing_pitch");
   needsFree("theta_R_dot", initial.theta_R_dot, c.free[kThetaR], "wing_pitch");
 
@@ -130,8 +117,9 @@ StartValues startValues(const Case& c, const InitialValues& initial, const Presc
   if (c.free[kY]) start.y = along(1);
   if (c.free[kZ]) start.z = along(2);
   if (c.free[kPitch]) start.pitch = completed(initial.theta_B, initial.theta_B_dot, body.pitch);
-  if (initial.roll || initial.yaw || initial.roll_rate || initial.yaw_rate)
-    start.attitude = startAttitude(initial, body);
+  // The motion of a butterfly only pitches.
+  if (c.free[kRoll]) start.roll = completed(initial.roll, initial.roll_dot, {});
+  if (c.free[kYaw]) start.yaw = completed(initial.yaw, initial.yaw_dot, {});
   if (c.free[kThetaR]) {
     start.theta_R =
         completed(initial.theta_R, initial.theta_R_dot, at_start.angles.wings.right.theta);

@@ -155,7 +155,7 @@ InitialValues readInitial(Section& root) {
   if (!root.has("initial")) {
     Section section = root.putSection("initial");
     for (const char* key : {"position", "velocity", "theta_B", "theta_B_dot", "theta_R",
-                            "theta_R_dot", "roll", "yaw", "roll_rate", "yaw_rate"}) {
+                            "theta_R_dot", "roll", "yaw", "roll_dot", "yaw_dot"}) {
       section.put(key, std::string("none"));
     }
     return initial;
@@ -169,8 +169,8 @@ InitialValues readInitial(Section& root) {
   initial.theta_R_dot = section.maybeNumber("theta_R_dot", {Bound::kAny, "rad/s", "or none"});
   initial.roll = section.maybeNumber("roll", {Bound::kAny, "rad", "or none"});
   initial.yaw = section.maybeNumber("yaw", {Bound::kAny, "rad", "or none"});
-  initial.roll_rate = section.maybeNumber("roll_rate", {Bound::kAny, "rad/s", "or none"});
-  initial.yaw_rate = section.maybeNumber("yaw_rate", {Bound::kAny, "rad/s", "or none"});
+  initial.roll_dot = section.maybeNumber("roll_dot", {Bound::kAny, "rad/s", "or none"});
+  initial.yaw_dot = section.maybeNumber("yaw_dot", {Bound::kAny, "rad/s", "or none"});
   section.finish();
   return initial;
 }

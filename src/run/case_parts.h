@@ -29,7 +29,7 @@ struct CaseMotion {
 struct InitialValues {
   std::optional<Eigen::Vector3d> position, velocity;
   std::optional<double> theta_B, theta_B_dot, theta_R, theta_R_dot;
-  std::optional<double> roll, yaw, roll_rate, yaw_rate;  ///< rates about the body's axes
+  std::optional<double> roll, roll_dot, yaw, yaw_dot;  ///< z-y-x angles
 };
 
 /// A gust as written.

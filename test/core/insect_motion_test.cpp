@@ -274,5 +274,20 @@ TEST(Csv, EveryBadCellIsNamed) {
   EXPECT_THROW(readCsv("/nonexistent.csv"), InputError);
 }
 
+/// Roll, pitch and yaw that all move: rates and accelerations are those of the attitude.
+TEST(Start, AnglesOfABodyThatLeavesItsPlaneHaveTheRatesThatItSays) {
+  const auto at = [](double t) {
+    const StartValue roll{0.3, 2.0, -5.0}, pitch{0.7, -1.5, 4.0}, yaw{-1.1, 3.0, 6.0};
+    return withAngles(BodyState(), roll.at(t), pitch.at(t), yaw.at(t));
+  };
+  const BodyState body = at(0.1);
+  const std::function<Eigen::Matrix3d(double)> attitude = [&at](double t) { return at(t).R_IB; };
+  const std::function<Eigen::Vector3d(double)> rate = [&at](double t) { return at(t).Omega_B; };
+  const Eigen::Matrix3d R_dot = difference(attitude, 0.1, 1e-3);
+  EXPECT_LT((vee(body.R_IB.transpose() * R_dot) - body.Omega_B).norm(), 1e-9);
+  EXPECT_LT((difference(rate, 0.1, 1e-3) - body.Omega_dot_B).norm(), 1e-8);
+  EXPECT_LT((rollPitchYaw(body.R_IB) - Eigen::Vector3d(0.475, 0.57, -0.77)).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace monarch_flight

@@ -117,7 +117,7 @@ Case crooked(bool image) {
     damaged["kappa"] = 4e-5;
     root["fluid"]["wind"] = std::vector<double>{0.2, sign * 1.0, -0.1};
     root["initial"]["roll"] = sign * 0.2;
-    root["initial"]["yaw_rate"] = sign * -3.0;
+    root["initial"]["yaw_dot"] = sign * -3.0;
   });
 }
 

@@ -16,21 +16,20 @@ struct StartValue {
   }
 };
 
-/// Explicit start of a body that leaves its plane: it turns at a constant rate.
-struct StartAttitude {
-  Eigen::Matrix3d R_IB = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d Omega_B = Eigen::Vector3d::Zero();  ///< body axes [rad/s]
-};
+/// Returns `body` with attitude, Omega and Omega_dot of these z-y-x angles: yaw, then pitch, then
+/// roll.
+BodyState withAngles(BodyState body, const Coordinate& roll, const Coordinate& pitch,
+                     const Coordinate& yaw);
 
 /// Which coordinates start explicitly; the others follow the motion below.
 struct StartValues {
-  std::optional<StartValue> x, y, z, pitch, theta_R;
-  std::optional<StartAttitude> attitude;  ///< instead of `pitch`
+  std::optional<StartValue> x, y, z, roll, pitch, yaw, theta_R;
 };
 
 /// A motion in which some coordinates leave from explicit initial values at a
 /// constant acceleration, zero unless given. With
-/// an explicit pitch the body only pitches (BodyState's invariant holds).
+/// an explicit pitch the body only pitches (BodyState's invariant holds), unless
+/// roll or yaw start explicitly, too: then the base must be a motion that only pitches.
 class StartMotion : public PrescribedMotion {
  public:
   StartMotion(std::shared_ptr<const PrescribedMotion> base, StartValues start, double t_start)
