@@ -1,4 +1,6 @@
 """The scene of scripts/render_field: vortices, wings and path, drawn by VTK."""
+import os
+
 import vtkmodules.vtkInteractionStyle  # noqa: F401 (VTK chooses its implementations by what is imported)
 import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
@@ -144,7 +146,15 @@ def draw(flow_file, wing_file, points, direction, keys):
     renderer.SetBackground(1, 1, 1)
     surface = vortices(flow, q)
     vorticity_scale = diverging(keys["vorticity"] or 4 * q ** 0.5, TEAL, ORANGE)
-    for data in [surface, mirrored(surface, body[0])][:sides]:
+    left_file = os.path.join(os.path.dirname(flow_file), "flow_left_" + os.path.basename(flow_file).split("_", 1)[1])
+    if os.path.exists(left_file):  # both wings are solved
+        left_reader = vtkXMLStructuredGridReader()
+        left_reader.SetFileName(left_file)
+        left_reader.Update()
+        surfaces = [surface, vortices(left_reader.GetOutput(), q)]
+    else:
+        surfaces = [surface, mirrored(surface, body[0])][:sides]
+    for data in surfaces:
         actor = actor_of(data, "spanwise_vorticity", vorticity_scale, False)
         actor.GetProperty().SetOpacity(0.6)
         actor.GetProperty().SetAmbient(0.35)

@@ -164,6 +164,9 @@ def led_flight(folder, folding):
                     "give the folder of such a flight")
     if not flight.flaps:
         raise Unfit(f"{folder}: holds no whole flap; fly more")
+    if flight.case.get("wings") == "independent":
+        raise Unfit(f"{folder}: wings = independent: must be mirrored, for what is folded is what both wings do; "
+                    "fly it with wings:=mirrored")
     if folding:
         settled_motion.check(flight)
     return flight

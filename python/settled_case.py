@@ -64,7 +64,7 @@ def plain(matrix):
 def shift_limits(guidance, means):
     """The same bounds of the wings' motion, told as changes of the new one."""
     for name, (low, high) in guidance["limits"].items():
-        if means[name] != 0.0:
+        if means.get(name, 0.0) != 0.0:  # those that tell the wings apart are not folded
             unit = float(units([name], means)[0])
             guidance["limits"][name] = [min(0.0, unit * (low - means[name])), max(0.0, unit * (high - means[name]))]
             guidance["rates"][name] *= unit

@@ -220,8 +220,11 @@ PerWing<Reply> Coordinator::askAir(const Request& request, CommittedStep& out) {
   left.ask(request);
   air.right = exchange(Role::kFluid, request);
   air.left = accepted(Role::kFluidLeft, request, left.answer());
-  for (Side side : kSides) out.wall_s[static_cast<std::size_t>(kFluids[side])] += air[side].wall_s;
-  out.exchange_s += secondsSince(begin) - std::max(air.right.wall_s, air.left.wall_s);
+  const auto of = [&out](Role role) -> double& { return out.wall_s[static_cast<std::size_t>(role)]; };
+  const auto slower = [&of] { return std::max(of(Role::kFluid), of(Role::kFluidLeft)); };
+  const double before = slower();
+  for (Side side : kSides) of(kFluids[side]) += air[side].wall_s;
+  out.exchange_s += secondsSince(begin) - (slower() - before);  // waiting for the slower one, too
   out.fluid = together(air.right.report, air.left.report);
   return air;
 }

@@ -36,8 +36,8 @@ std::vector<std::string> CoupledModel::problems() const {
   }
   if (mirrored && (free.lateral() || free[kThetaL])) {
     faults.push_back(
-        "free/y, free/roll, free/yaw: must be false while one wing is the mirror image of the "
-        "other; set wings to independent");
+        "free/y, roll, yaw, pitch of the left wing: must be false while one wing is the mirror image "
+        "of the other; set wings to independent");
   }
   if (insect.bare_wing && !mirrored)
     faults.push_back("wings = independent: a bare wing is one wing; set wings to mirrored");

@@ -45,7 +45,9 @@ class FieldOutput : public StepSink {
   void onStep(const CommittedStep& step) override {
     if (resumed_) takeBackFrom(step.step);
     resumed_ = false;
-    if (!step.flow.right) return;
+    for (Side side : flows()) {
+      if (!step.flow[side]) return;
+    }
     makeFolder();
     const Entry entry(step.step, step.t);
     const std::string wing = folder_ + "/" + entry.wing;

@@ -17,8 +17,13 @@ std::string refusal(const CommandInfo& info, double value) {
 
 std::string cut(const CommandInfo& info, double value, const CommandLimits& limits) {
   std::ostringstream text;
-  text << "command " << info.name << " = " << value << (*info.unit ? " " : "") << info.unit
-       << ": is cut to " << std::clamp(value, limits.low, limits.high) << "; must be within ["
+  text << "command " << info.name << " = " << value << (*info.unit ? " " : "") << info.unit;
+  if (limits.low == 0.0 && limits.high == 0.0) {
+    text << ": is not taken, this flight has no such command; leave it 0 (guidance/limits/"
+         << info.name << " of the case, and wings independent for a difference)";
+    return text.str();
+  }
+  text << ": is cut to " << std::clamp(value, limits.low, limits.high) << "; must be within ["
        << limits.low << ", " << limits.high << "] (guidance/limits/" << info.name
        << " of the case); send less, or widen the limits";
   return text.str();

@@ -87,7 +87,9 @@ void RosParticipant::connect() {
     if (ros::SteadyTime::now() >= deadline) {
       throw ExchangeError(
           name() + " did not answer the handshake within " + inSeconds(run_.limits.connect_s) +
-          ": is it running, in namespace " + node_.getNamespace() + " of this master" +
+          (role() == Role::kFluidLeft ? ": is it launched (wings:=independent) and"
+                                      : ": is it") +
+          " running, in namespace " + node_.getNamespace() + " of this master" +
           (counters_.forged > 0
                ? ", with the same " + std::string(Token::kVariable) + " (" +
                      std::to_string(counters_.forged) + " messages had another seal)?"

@@ -12,8 +12,8 @@ constexpr double kDegree = M_PI / 180.0;
 
 std::string known() {
   std::string names;
-  for (const CommandInfo& info : kCommandTable)
-    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  for (std::size_t i = 0; i < kAlikeCommands; ++i)
+    names += (names.empty() ? "" : ", ") + std::string(kCommandTable[i].name);
   return names;
 }
 
@@ -30,9 +30,10 @@ std::vector<std::size_t> readInputs(Section& section, const Faults& faults) {
   std::istringstream names(given);
   for (std::string name; std::getline(names, name, ',');) {
     name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
-    const auto found = std::find_if(kCommandTable.begin(), kCommandTable.end(),
+    const auto last = kCommandTable.begin() + kAlikeCommands;
+    const auto found = std::find_if(kCommandTable.begin(), last,
                                     [&](const CommandInfo& info) { return info.name == name; });
-    if (found == kCommandTable.end()) {
+    if (found == last) {
       section.fault("inputs", " = '" + name + "': must be commands of " + known() +
                                   " with commas between them; correct it");
       continue;

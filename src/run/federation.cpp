@@ -98,8 +98,10 @@ std::unique_ptr<Guidance> makeGuidance(const Case& c, std::shared_ptr<CommandInb
 }
 
 std::vector<Role> rolesOf(const Case& c) {
-  std::vector<Role> roles(kAllRoles.begin(), kAllRoles.end());
-  if (c.mirrored) roles.pop_back();  // the left wing's air
+  std::vector<Role> roles;
+  for (Role role : kAllRoles) {
+    if (role != Role::kFluidLeft || !c.mirrored) roles.push_back(role);
+  }
   return roles;
 }
 

@@ -104,6 +104,11 @@ std::vector<RequiredLoads> requiredLoads(const Case& c, const NumericTable& flig
   if (c.insect.bare_wing) {
     throw InputError("insect/kind = bare_wing: inverse dynamics need a body; fly a butterfly");
   }
+  if (!c.mirrored) {
+    throw InputError(
+        "wings = independent: inverse dynamics take both wings to do the same; fly with wings "
+        "mirrored");
+  }
   const NumericTable table = flight.select(columns());
   const MultibodyDynamics dynamics(c.insect, c.gravity);
   std::vector<RequiredLoads> rows;

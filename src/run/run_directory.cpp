@@ -82,8 +82,9 @@ std::uint64_t estimatedOutputBytes(const Case& c) {
   const std::uint64_t steps = c.time.steps + std::uint64_t{1};
   std::uint64_t bytes = kSmallFiles + c.resolved_yaml.size() + steps * (kRow + kIterationRows);
   if (c.fluid == FluidKind::kNavierStokes) {
-    const auto cells =
-        static_cast<std::uint64_t>(makeGrid(c.insect.wings.right.planform, c.grid).cells());
+    std::uint64_t cells = 0;
+    for (Side side : c.sides())
+      cells += static_cast<std::uint64_t>(makeGrid(c.insect.wings[side].planform, c.grid).cells());
     if (c.output.fields_every > 0) bytes += steps / c.output.fields_every * cells * kFieldCell;
     if (c.output.checkpoint_every > 0) bytes += kCheckpoints * cells * kStateCell;
   }

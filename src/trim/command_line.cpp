@@ -157,13 +157,13 @@ std::vector<double> numberList(Arguments& arguments, const char* key, double low
 std::vector<std::size_t> inputList(Arguments& arguments) {
   std::vector<std::size_t> inputs;
   std::string names;
-  for (const CommandInfo& info : kCommandTable)
-    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  for (std::size_t i = 0; i < kAlikeCommands; ++i)
+    names += (names.empty() ? "" : ", ") + std::string(kCommandTable[i].name);
   for (const std::string& name : split(arguments.text("inputs"), ',')) {
     std::size_t i = 0;
-    while (i < kCommands && name != kCommandTable[i].name) ++i;
+    while (i < kAlikeCommands && name != kCommandTable[i].name) ++i;
     const bool again = std::find(inputs.begin(), inputs.end(), i) != inputs.end();
-    if (i == kCommands || again) {
+    if (i == kAlikeCommands || again) {
       arguments.faults.push_back("inputs:=" + name + ": must be different ones of " + names +
                                  "; as amplitude,deviation_mean");
     }

@@ -170,6 +170,8 @@ void checkCase(const Case& c, const ControlOptions& options) {
   std::vector<std::string> faults;
   if (!c.free[kX] || !c.free[kZ] || !c.free[kPitch])
     faults.push_back("free: x, z and pitch must be true for a flight to be controlled; free them");
+  if (!c.mirrored)
+    faults.push_back("wings = independent: the design is longitudinal; set wings to mirrored");
   if (options.inputs.size() < 2)
     faults.push_back(
         "inputs: must be two commands or more to hold speed and climb; amplitude,deviation_mean "

@@ -60,6 +60,8 @@ FlapMap::FlapMap(const Case& c, const std::string& config_dir,
         "free: nothing is free, so there is nothing to trim; free x, z, pitch or "
         "wing_pitch");
   }
+  if (!c.mirrored)
+    faults.push_back("wings = independent: the trim is longitudinal; set wings to mirrored");
   if (run_in < 0) {
     faults.push_back("run_in = " + std::to_string(run_in) + ": must be >= 0 flaps; 1 is usual");
   }

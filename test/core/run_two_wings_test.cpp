@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/state_hash.h"
 
@@ -151,6 +152,67 @@ TEST(TwoWings, SideWindBlowsBothWaysAlike) {
   for (std::size_t n = 0; n < right.size() && !HasFailure(); ++n)
     expectSame(mirrored(right[n].interface.body), left[n].interface.body, right[n].step);
   EXPECT_GT(right.back().interface.body.v.y(), 0.01);
+}
+
+/// Which side is which: the wing that lost its tip goes down.
+TEST(TwoWings, RollsToTheSideOfTheSmallerWing) {
+  const auto damaged = [](const char* wing) {
+    return flown(edited("climb_printed", kQuick, [wing](YAML::Node& root) {
+      root["wings"] = "independent";
+      setFree(root);
+      root["insect"][wing]["tip_lost"] = 0.2;
+      root["time"]["flaps"] = 0.3;
+    }));
+  };
+  const auto roll = [](const std::vector<CommittedStep>& steps) {
+    return rollPitchYaw(steps.back().interface.body.R_IB).x();
+  };
+  const auto left = damaged("left_wing"), right = damaged("right_wing");
+  // Positive roll: right side down. In this time the wings press down on the air.
+  EXPECT_LT(roll(left), -0.01);
+  EXPECT_GT(roll(right), 0.01);
+  const Loads &whole = left.back().loads.right, &cut = left.back().loads.left;
+  EXPECT_GT(whole.force().norm(), cut.force().norm());
+}
+
+/// A case of a damaged wing says what is wrong with it.
+TEST(TwoWings, FaultsOfOneWingAreNamed) {
+  const auto faults = [](const Edit& edit) -> std::string {
+    try {
+      edited("climb_printed", kQuick, edit);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const auto with = [&](const char* key, double value) {
+    return faults([key, value](YAML::Node& root) {
+      root["wings"] = "independent";
+      root["insect"]["left_wing"][key] = value;
+    });
+  };
+  EXPECT_NE(with("tip_lost", 0.95).find("insect/left_wing/tip_lost = 0.95: must be in [0, 0.9]"),
+            std::string::npos);
+  EXPECT_NE(with("kappa", -1.0).find("insect/left_wing/kappa = -1 N m/rad: must be >= 0"),
+            std::string::npos);
+  EXPECT_NE(with("colour", 1.0).find("insect/left_wing/colour"), std::string::npos);
+  EXPECT_NE(faults([](YAML::Node& root) {
+              root["insect"]["left_wing"]["tip_lost"] = 0.2;
+            }).find("set wings to independent"),
+            std::string::npos);
+  EXPECT_NE(faults([](YAML::Node& root) { root["free"]["roll"] = true; })
+                .find("free/roll = true: must be false"),
+            std::string::npos);
+}
+
+/// What is cut off at the tip is lost in area and span, not in the chords that remain.
+TEST(TwoWings, ALostTipTakesItsShareOfTheArea) {
+  const Planform whole = Planform::ellipse(0.03, 0.05, 0.25);
+  const Planform cut = whole.withoutTip(0.2);
+  EXPECT_NEAR(cut.area() / whole.area(), 0.8, 1e-9);
+  EXPECT_LT(cut.span(), whole.span());
+  EXPECT_EQ(cut.chord(0.02), whole.chord(0.02));
+  EXPECT_THROW(whole.withoutTip(0.91), std::invalid_argument);
 }
 
 /// Sub-iterations with eight unknowns and two flows stay few.

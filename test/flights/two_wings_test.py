@@ -48,10 +48,14 @@ class TwoWings(flying.FlightTest):
         self.assertGreater(abs(rows[-1][columns.index("roll")]), 0.01)  # it does roll
         self.assertNotEqual(rows[-1][columns.index("fz")], rows[-1][columns.index("fz_L")])
 
-    def test_mirrored_wings_need_no_left_fluid(self):
-        code, output = self.fly("case:=climb_printed", "wings:=sideways")
-        self.assertEqual(code, 2, output)
-        self.assertIn("wings:=sideways: must be mirrored or independent", output)
+    def test_refused(self):
+        for keys, words in (
+                (("wings:=sideways",), "wings:=sideways: must be mirrored or independent"),
+                (("wings:=independent", "fluid_node:=drag_fluid.py"), "is one fluid for mirrored wings"),
+                ((self.case(), "wings:=mirrored"), "left_wing: must not be given while one wing is")):
+            code, output = self.fly(*keys, "in_process:=true" if "case" in keys[0] else "flaps:=1")
+            self.assertEqual(code, 2, output)
+            self.assertIn(words, output)
 
 
 if __name__ == "__main__":
