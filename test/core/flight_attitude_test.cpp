@@ -153,6 +153,21 @@ TEST(Attitude, OneTurningCoordinateAloneTurnsAboutItsAxis) {
   EXPECT_LT(logSO3((rotationY(0.4) * rotationX(angle)).transpose() * body.R_IB).norm(), 1e-12);
 }
 
+/// Which side is which: what lifts the left wing turns the right side down.
+TEST(Attitude, LiftOnTheLeftWingRollsToTheRight) {
+  const FlightSolver solver(testing::publishedMonarch(), 9.81, kSix, newmarkOf(1e-3));
+  Loads lift;
+  lift.force_pressure = {0.0, 0.0, -1e-3};   // z points down
+  lift.moment_pressure = {-2e-5, 0.0, 0.0};  // it acts 2 cm outside the root
+  const BodyVector none = solver.accelerations(BodyState(), {}, {});
+  const BodyVector left = solver.accelerations(BodyState(), {}, {Loads(), lift});
+  const BodyVector right = solver.accelerations(BodyState(), {}, {lift, Loads()});
+  EXPECT_GT((left - none)(kRoll), 0.0);
+  EXPECT_LT((right - none)(kRoll), 0.0);
+  EXPECT_NEAR((left - none)(kRoll), -(right - none)(kRoll), 1e-9 * std::abs(left(kRoll)));
+  EXPECT_LT((left - none)(kZ), 0.0);
+}
+
 TEST(Attitude, MirroredTwiceIsTheSame) {
   BodyState body;
   body.x = {1.0, 2.0, 3.0};
