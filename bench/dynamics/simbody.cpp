@@ -113,8 +113,8 @@ class Engine {
       for (int j = 0; j < 3; ++j) R(i, j) = s.body.R_IB(i, j);
     }
     body_.setQToFitTransform(state_, SimTK::Transform(SimTK::Rotation(R), vec(s.body.x)));
-    body_.setUToFitVelocity(
-        state_, SimTK::SpatialVec(vec(s.body.R_IB * s.body.Omega_B), vec(s.body.v)));
+    body_.setUToFitVelocity(state_,
+                            SimTK::SpatialVec(vec(s.body.R_IB * s.body.Omega_B), vec(s.body.v)));
     for (Side side : kSides) {
       SimTK::MobilizedBody::Pin& wing = side == Side::kRight ? right_ : left_;
       wing.setOneQ(state_, 0, s.angles.wings[side].theta.q);
@@ -245,34 +245,36 @@ void addSixDof(Case c, DynamicsRows& rows) {
   damaged.planform = damaged.planform.withoutTip(0.2);
   damaged.plate = plateWing(damaged.planform, mass, root);
   damaged.kappa = stiffness;
-  const auto motion = std::make_shared<CrookedMotion>(c.motion, c.time.period);
-  const auto loads = [f](double t) { return crookedLoads(f, t); };
+  const auto motion = std::make_shared<AsymmetricMotion>(c.motion, c.time.period);
+  const auto loads = [f](double t) { return asymmetricLoads(f, t); };
   const SixDofFlight flight(c.insect, c.gravity, motion, loads);
   Engine engine(c.insect, c.gravity, motion, loads);
   engine.start(motion->at(0.0));
   const std::vector<double> times = twentyTimes(c.time.period);
   const std::vector<EngineState> theirs = engine.run(times);
   Eigen::Matrix<double, 6, 1> scale = Eigen::Matrix<double, 6, 1>::Zero(), worst = scale;
-  follow(flight, SixDofFlight::state(motion->at(0.0)), times, [&](std::size_t n, const OdeState& y) {
-    const EngineState& s = theirs[n];
-    const PrescribedState ours = flight.motion(y, times[n]);
-    const auto& [right, left] = ours.angles.wings;
-    // In its true axes the left wing pitches as its mirror image does.
-    Eigen::Matrix<double, 6, 1> difference, size;
-    difference << (ours.body.x - s.x).norm(), logSO3(ours.body.R_IB.transpose() * s.R_IB).norm(),
-        std::hypot(right.theta.q - s.theta.right, left.theta.q - s.theta.left),
-        (ours.body.v - s.v).norm(), (ours.body.Omega_B - s.Omega_B).norm(),
-        std::hypot(right.theta.qd - s.theta_dot.right, left.theta.qd - s.theta_dot.left);
-    size << s.x.norm(), 1.0, std::hypot(s.theta.right, s.theta.left), s.v.norm(), s.Omega_B.norm(),
-        std::hypot(s.theta_dot.right, s.theta_dot.left);
-    worst = worst.cwiseMax(difference);
-    scale = scale.cwiseMax(size);
-  });
-  const char* names[] = {"position", "attitude", "both wings' pitch", "velocity",
-                         "angular velocity", "both wings' pitch rate"};
+  follow(flight, SixDofFlight::state(motion->at(0.0)), times,
+         [&](std::size_t n, const OdeState& y) {
+           const EngineState& s = theirs[n];
+           const PrescribedState ours = flight.motion(y, times[n]);
+           const auto& [right, left] = ours.angles.wings;
+           // In its true axes the left wing pitches as its mirror image does.
+           Eigen::Matrix<double, 6, 1> difference, size;
+           difference << (ours.body.x - s.x).norm(),
+               logSO3(ours.body.R_IB.transpose() * s.R_IB).norm(),
+               std::hypot(right.theta.q - s.theta.right, left.theta.q - s.theta.left),
+               (ours.body.v - s.v).norm(), (ours.body.Omega_B - s.Omega_B).norm(),
+               std::hypot(right.theta.qd - s.theta_dot.right, left.theta.qd - s.theta_dot.left);
+           size << s.x.norm(), 1.0, std::hypot(s.theta.right, s.theta.left), s.v.norm(),
+               s.Omega_B.norm(), std::hypot(s.theta_dot.right, s.theta_dot.left);
+           worst = worst.cwiseMax(difference);
+           scale = scale.cwiseMax(size);
+         });
+  const char* names[] = {"position", "attitude",         "both wings' pitch",
+                         "velocity", "angular velocity", "both wings' pitch rate"};
   for (int i = 0; i < 6; ++i) {
-    rows.push_back({"simbody six_dof",
-                    std::string(names[i]) + ", largest difference in a crooked flap / largest",
+    rows.push_back({"simbody",
+                    std::string(names[i]) + ", largest difference in a asymmetric flap / largest",
                     kMethod, worst(i), scale(i), worst(i) / scale(i), 1e-6});
   }
 }

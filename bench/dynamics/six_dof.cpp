@@ -21,14 +21,15 @@ SixDofFlight::SixDofFlight(const Insect& insect, double gravity,
     : motion_(std::move(motion)),
       loads_(std::move(loads)),
       flight_(insect, gravity, kAllEight, Newmark()),
-      wings_{{Side::kRight, insect, gravity, Newmark()}, {Side::kLeft, insect, gravity, Newmark()}} {}
+      wings_{{Side::kRight, insect, gravity, Newmark()},
+             {Side::kLeft, insect, gravity, Newmark()}} {}
 
 OdeState SixDofFlight::state(const PrescribedState& at) {
   const Eigen::Quaterniond q(at.body.R_IB);
   const auto& [right, left] = at.angles.wings;
   OdeState y(17);
-  Eigen::Map<Layout>(y.data()) << at.body.x, q.w(), q.x(), q.y(), q.z(), at.body.v,
-      at.body.Omega_B, right.theta.q, right.theta.qd, left.theta.q, left.theta.qd;
+  Eigen::Map<Layout>(y.data()) << at.body.x, q.w(), q.x(), q.y(), q.z(), at.body.v, at.body.Omega_B,
+      right.theta.q, right.theta.qd, left.theta.q, left.theta.qd;
   return y;
 }
 
@@ -85,7 +86,7 @@ void SixDofFlight::operator()(const OdeState& y, OdeState& dydt, double t) const
       left.theta.qd, left.theta.qdd;
 }
 
-PrescribedState CrookedMotion::at(double t) const {
+PrescribedState AsymmetricMotion::at(double t) const {
   PrescribedState state = base_->at(t);
   const WingAngles late = base_->at(t - 0.05 * period_).angles.wings.right;
   WingAngles& left = state.angles.wings.left;
@@ -99,7 +100,7 @@ PrescribedState CrookedMotion::at(double t) const {
   return state;
 }
 
-PerWing<Loads> crookedLoads(double frequency, double t) {
+PerWing<Loads> asymmetricLoads(double frequency, double t) {
   PerWing<Loads> loads{smoothLoads(frequency, t), smoothLoads(frequency, t - 0.07 / frequency)};
   loads.left.force_pressure *= 0.8;
   loads.left.moment_pressure *= 0.8;
@@ -109,12 +110,12 @@ PerWing<Loads> crookedLoads(double frequency, double t) {
 namespace {
 
 /// Air that bears the loads of one wing whatever it does.
-class CrookedAir : public FluidModel {
+class AsymmetricAir : public FluidModel {
  public:
-  CrookedAir(double frequency, Side side) : frequency_(frequency), side_(side) {}
+  AsymmetricAir(double frequency, Side side) : frequency_(frequency), side_(side) {}
   void start(const WingMotion&, double dt) override { dt_ = dt, level_ = 0; }
   Loads evaluate(const WingMotion&) override {
-    return crookedLoads(frequency_, (level_ + 1) * dt_)[side_];
+    return asymmetricLoads(frequency_, (level_ + 1) * dt_)[side_];
   }
   Loads linearise(const WingMotion& next, LoadOperator& jacobian) override {
     jacobian = LoadOperator();  // given loads do not feel the motion
@@ -173,8 +174,8 @@ Interface coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotion> mot
   settings.prescribed_steps = 0;
   settings.tolerance = 1e-13;
   settings.load_tolerance = 1e-9;
-  FluidParticipant right(Side::kRight, model, std::make_unique<CrookedAir>(f, Side::kRight));
-  FluidParticipant left(Side::kLeft, model, std::make_unique<CrookedAir>(f, Side::kLeft));
+  FluidParticipant right(Side::kRight, model, std::make_unique<AsymmetricAir>(f, Side::kRight));
+  FluidParticipant left(Side::kLeft, model, std::make_unique<AsymmetricAir>(f, Side::kLeft));
   FlightParticipant flight(model);
   WingParticipant wing(model);
   GuidanceParticipant guidance(model, std::make_unique<MotionGuidance>(std::move(motion)));
@@ -202,9 +203,9 @@ double apart(const Interface& a, const PrescribedState& b) {
 DynamicsRows checkSixDof(const DynamicsFolders& folders) {
   const Case c = loadCase("climb_printed", {}, folders.config);
   const double f = 1.0 / c.time.period;
-  const auto motion = std::make_shared<CrookedMotion>(c.motion, c.time.period);
+  const auto motion = std::make_shared<AsymmetricMotion>(c.motion, c.time.period);
   const SixDofFlight flight(c.insect, c.gravity, motion,
-                            [f](double t) { return crookedLoads(f, t); });
+                            [f](double t) { return asymmetricLoads(f, t); });
   OdeState y = SixDofFlight::state(motion->at(0.0));
   const PrescribedState start = flight.motion(y, 0.0);
   integrate(flight, y, 0.0, c.time.period, 4000, [](const OdeState&, double) {});
@@ -214,12 +215,12 @@ DynamicsRows checkSixDof(const DynamicsFolders& folders) {
   double before = 0.0, order = 0.0;
   for (int steps : {250, 500, 1000, 2000}) {
     const double error = apart(coupledFlap(c, started, steps), exact);
-    rows.push_back({"six_dof", "crooked flap, eight coordinates: largest error",
+    rows.push_back({"six_dof", "asymmetric flap, eight coordinates: largest error",
                     std::to_string(steps) + " steps a flap", error, 0.0, error, kStated});
     order = std::log2(before / error);
     before = error;
   }
-  rows.push_back({"six_dof", "crooked flap, eight coordinates: order",
+  rows.push_back({"six_dof", "asymmetric flap, eight coordinates: order",
                   "1000 and 2000 steps a flap", order, 2.0, std::abs(order - 2.0), 0.1});
   return rows;
 }

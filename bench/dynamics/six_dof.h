@@ -5,9 +5,9 @@
 
 namespace monarch_flight::verify {
 
-/// Six degrees of freedom and both wings' pitch by the package's own solvers of flight and wing, the
-/// other joints from a motion. State: x, quaternion (w, x, y, z), v, Omega, theta and theta' of the
-/// right wing, of the left wing.
+/// Six degrees of freedom and both wings' pitch by the package's own solvers of flight and wing,
+/// the other joints from a motion. State: x, quaternion (w, x, y, z), v, Omega, theta and theta' of
+/// the right wing, of the left wing.
 class SixDofFlight {
  public:
   using WingLoads = std::function<PerWing<Loads>(double t)>;
@@ -31,9 +31,9 @@ inline const FreeCoordinates kAllEight{kX, kY, kZ, kRoll, kPitch, kYaw, kThetaR,
 
 /// A motion whose left wing swings less, later and about another mean, of a body that starts with
 /// roll, yaw, side-slip and a turn.
-class CrookedMotion : public PrescribedMotion {
+class AsymmetricMotion : public PrescribedMotion {
  public:
-  CrookedMotion(std::shared_ptr<const PrescribedMotion> base, double period)
+  AsymmetricMotion(std::shared_ptr<const PrescribedMotion> base, double period)
       : base_(std::move(base)), period_(period) {}
   PrescribedState at(double t) const override;
 
@@ -43,6 +43,6 @@ class CrookedMotion : public PrescribedMotion {
 };
 
 /// Different loads on both wings, smooth, of the size of a monarch's; the left ones in the mirror.
-PerWing<Loads> crookedLoads(double frequency, double t);
+PerWing<Loads> asymmetricLoads(double frequency, double t);
 
 }  // namespace monarch_flight::verify

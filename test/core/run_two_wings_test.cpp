@@ -108,7 +108,7 @@ TEST(TwoWings, SymmetricFlightIsTheMirroredOneInNavierStokesAir) {
 }
 
 /// A flight that is anything but symmetric, or its mirror image.
-Case crooked(bool image) {
+Case asymmetric(bool image) {
   const double sign = image ? -1.0 : 1.0;
   return edited("climb_printed", kQuick, [image, sign](YAML::Node& root) {
     root["wings"] = "independent";
@@ -123,7 +123,7 @@ Case crooked(bool image) {
 }
 
 TEST(TwoWings, EveryFlightHasItsMirrorImage) {
-  const auto one = flown(crooked(false)), other = flown(crooked(true));
+  const auto one = flown(asymmetric(false)), other = flown(asymmetric(true));
   ASSERT_EQ(one.size(), other.size());
   for (std::size_t n = 0; n < one.size() && !HasFailure(); ++n) {
     const CommittedStep &a = one[n], &b = other[n];
@@ -216,7 +216,7 @@ TEST(TwoWings, ALostTipTakesItsShareOfTheArea) {
 TEST(TwoWings, ConvergesInFewSubIterations) {
   double sum = 0.0;
   std::size_t most = 0, free = 0;
-  for (const CommittedStep& step : flown(crooked(false))) {
+  for (const CommittedStep& step : flown(asymmetric(false))) {
     if (step.prescribed) continue;
     ++free;
     sum += static_cast<double>(step.iterations.size());
