@@ -60,7 +60,8 @@ class StartedWingbeat : public Guidance {
  private:
   static WingbeatSettings settings(const Case& c, double time_constant) {
     WingbeatSettings s;
-    s.limits.fill({-0.999, kUnlimited, kUnlimited});
+    s.limits.fill({0.0, 0.0, kUnlimited});
+    for (std::size_t i = 0; i < kAlikeCommands; ++i) s.limits[i] = {-0.999, kUnlimited, kUnlimited};
     s.time_constant = time_constant;
     s.frequency = 1.0 / c.time.period;
     s.dt = c.time.dt;
