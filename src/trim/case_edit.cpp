@@ -37,8 +37,10 @@ void write(std::ostream& out, const YAML::Node& map, const std::string& above,
       write(out, entry.second, path + "/", indent + "  ", comments);
       continue;
     }
+    YAML::Node inline_value = YAML::Clone(entry.second);  // one line, however the case had it
+    inline_value.SetStyle(YAML::EmitterStyle::Flow);
     YAML::Emitter value;
-    value << YAML::Flow << entry.second;
+    value << inline_value;
     out << ' ' << value.c_str() << '\n';
   }
 }

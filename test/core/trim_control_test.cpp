@@ -7,6 +7,7 @@
 #include "monarch_flight/trim/command.h"
 #include "monarch_flight/trim/controlled_flight.h"
 #include "monarch_flight/trim/trim.h"
+#include "trim/case_edit.h"
 
 namespace monarch_flight {
 namespace {
@@ -263,6 +264,13 @@ TEST_F(ControlCase, WrongKeysAreRefused) {
   expectHas(refusal({"control:=true", "fit:=kappa:1e-4:2e-4"}), "fit: is for a trim");
   expectHas(refusal({"samples:=4"}), "samples:=4: unknown key");
   EXPECT_EQ(refusal({"control:=true", "samples:=4", "speeds:=1,1.2", "orbit:=own"}), "");
+}
+
+/// A controlled case has rows of numbers; written anew it is the same case.
+TEST(CaseEdit, WritesRowsOfNumbersSoThatTheyAreReadAgain) {
+  const Case c = loadCase("climb_controlled", {}, CONFIG_DIR);
+  const std::string text = CaseEdit(c.resolved_yaml).text();
+  EXPECT_EQ(caseFromText(text, "again", {}, CONFIG_DIR).resolved_yaml, c.resolved_yaml);
 }
 
 }  // namespace
