@@ -4,6 +4,7 @@ import glob
 import os
 import re
 import signal
+import subprocess
 import unittest
 
 import flying
@@ -27,7 +28,12 @@ class LostNode(flying.FlightTest):
 
     def assert_ended(self, pids):
         for name, pid in pids.items():
-            self.assertFalse(os.path.exists("/proc/%d" % pid), name + " is still there")
+            try:
+                with open("/proc/%d/stat" % pid) as f:
+                    state = f.read().rpartition(")")[2].split()[0]
+            except OSError:
+                continue
+            self.assertEqual(state, "Z", name + " is still there")  # an orphan that nobody asked about
 
     def kill(self, name):
         process, pids = self.airborne()
@@ -60,6 +66,19 @@ class LostNode(flying.FlightTest):
         self.kill("coordinator")
         self.assertFalse(os.path.exists(self.out() + "/summary.json"))
         self.assertFalse(os.path.exists(self.out() + "/flight.bag"))  # half a bag has another name
+
+    def test_launcher(self):
+        """What roslaunch leaves behind when it is killed is ended, and its last step kept."""
+        process, pids = self.airborne()
+        launcher = subprocess.run(["pgrep", "-f", "roslaunch.*" + re.escape(self.out())], check=True,
+                                  capture_output=True, text=True).stdout.split()
+        for pid in launcher:
+            os.kill(int(pid), signal.SIGKILL)
+        code, output = self.finish(process, LIMIT)
+        self.assertNotEqual(code, 0, output)
+        self.assertIn("fly: the launcher is gone; ending its nodes", output)
+        self.assert_ended(pids)
+        self.assertIn("is the last one committed", flying.summary(self.out())["failure"])
 
     def test_frozen_node_meets_the_watchdog(self):
         """A node that lives but does not answer: found by the time limit, here 3 s."""
