@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "dynamics/given_flap.h"
 #include "dynamics/ode.h"
 #include "dynamics/rows.h"
 #include "monarch_flight/coupling/coordinator.h"
@@ -13,52 +14,6 @@ namespace monarch_flight::verify {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Air that bears given loads whatever the wing does.
-class GivenLoads : public FluidModel {
- public:
-  explicit GivenLoads(double frequency) : frequency_(frequency) {}
-  void start(const WingMotion&, double dt) override { dt_ = dt, level_ = 0; }
-  Loads evaluate(const WingMotion&) override { return smoothLoads(frequency_, (level_ + 1) * dt_); }
-  Loads linearise(const WingMotion& next, LoadOperator& jacobian) override {
-    jacobian = LoadOperator();  // given loads do not feel the motion
-    return evaluate(next);
-  }
-  int operatorCost() const override { return 0; }
-  void commit() override { ++level_; }
-  std::vector<char> save() const override { return {}; }
-  void restore(const std::vector<char>&) override {}
-  Matrix6d addedMass() const override { return Matrix6d::Zero(); }
-  FluidReport report() const override { return {}; }
-  long cells() const override { return 0; }
-  SurfacePressure surfacePressure() const override { return {}; }
-  std::vector<VortexPoint> vortices(double, int) const override { return {}; }
-
- private:
-  double frequency_, dt_ = 0.0;
-  int level_ = 0;
-};
-
-/// The motion, with accelerations at t = 0 that satisfy the equations of motion.
-class ConsistentStart : public PrescribedMotion {
- public:
-  ConsistentStart(std::shared_ptr<const PrescribedMotion> base, PrescribedState start)
-      : base_(std::move(base)), start_(std::move(start)) {}
-  PrescribedState at(double t) const override { return t == 0.0 ? start_ : base_->at(t); }
-
- private:
-  std::shared_ptr<const PrescribedMotion> base_;
-  PrescribedState start_;
-};
-
-class LastStep : public StepSink {
- public:
-  void onStep(const CommittedStep& step) override { last = step; }
-  void onReset() override {}
-  void onEnd(const std::string& failure) override { why = failure; }
-  CommittedStep last;
-  std::string why;
-};
 
 /// (x, z, theta_B, theta_R) after one flap by the package's coordinator, flight and wing; `known`:
 /// the motion's accelerations at the start satisfy the equations of motion.
@@ -74,7 +29,8 @@ Eigen::Vector4d coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotio
   settings.prescribed_steps = 0;
   settings.tolerance = 1e-13;
   settings.load_tolerance = 1e-9;
-  FluidParticipant fluid(Side::kRight, model, std::make_unique<GivenLoads>(1.0 / c.time.period));
+  const auto loads = [f = 1.0 / c.time.period](double t) { return smoothLoads(f, t); };
+  FluidParticipant fluid(Side::kRight, model, std::make_unique<GivenLoads>(loads));
   FlightParticipant flight(model);
   WingParticipant wing(model);
   GuidanceParticipant guidance(model, std::make_unique<MotionGuidance>(std::move(motion)));

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "dynamics/given_flap.h"
 #include "dynamics/rows.h"
 #include "monarch_flight/coupling/coordinator.h"
 #include "monarch_flight/coupling/participants.h"
@@ -109,59 +110,6 @@ PerWing<Loads> asymmetricLoads(double frequency, double t) {
 
 namespace {
 
-/// Air that bears the loads of one wing whatever it does.
-class AsymmetricAir : public FluidModel {
- public:
-  AsymmetricAir(double frequency, Side side) : frequency_(frequency), side_(side) {}
-  void start(const WingMotion&, double dt) override { dt_ = dt, level_ = 0; }
-  Loads evaluate(const WingMotion&) override {
-    return asymmetricLoads(frequency_, (level_ + 1) * dt_)[side_];
-  }
-  Loads linearise(const WingMotion& next, LoadOperator& jacobian) override {
-    jacobian = LoadOperator();  // given loads do not feel the motion
-    return evaluate(next);
-  }
-  int operatorCost() const override { return 0; }
-  void commit() override { ++level_; }
-  std::vector<char> save() const override { return {}; }
-  void restore(const std::vector<char>&) override {}
-  Matrix6d addedMass() const override { return Matrix6d::Zero(); }
-  FluidReport report() const override { return {}; }
-  long cells() const override { return 0; }
-  SurfacePressure surfacePressure() const override { return {}; }
-  std::vector<VortexPoint> vortices(double, int) const override { return {}; }
-
- private:
-  double frequency_;
-  Side side_;
-  double dt_ = 0.0;
-  int level_ = 0;
-};
-
-/// The motion, from a start whose accelerations satisfy the equations of motion.
-class StartedMotion : public PrescribedMotion {
- public:
-  StartedMotion(std::shared_ptr<const PrescribedMotion> base, PrescribedState start)
-      : base_(std::move(base)), start_(std::move(start)) {}
-  PrescribedState at(double t) const override { return t == 0.0 ? start_ : base_->at(t); }
-
- private:
-  std::shared_ptr<const PrescribedMotion> base_;
-  PrescribedState start_;
-};
-
-struct LastStep : StepSink {
-  CommittedStep last;
-  std::string why;
-  std::size_t most = 0;
-  void onStep(const CommittedStep& step) override {
-    last = step;
-    most = std::max(most, step.iterations.size());
-  }
-  void onReset() override {}
-  void onEnd(const std::string& failure) override { why = failure; }
-};
-
 Interface coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotion> motion, int steps) {
   const double f = 1.0 / c.time.period;
   CoupledModel model{c.insect};
@@ -174,8 +122,11 @@ Interface coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotion> mot
   settings.prescribed_steps = 0;
   settings.tolerance = 1e-13;
   settings.load_tolerance = 1e-9;
-  FluidParticipant right(Side::kRight, model, std::make_unique<AsymmetricAir>(f, Side::kRight));
-  FluidParticipant left(Side::kLeft, model, std::make_unique<AsymmetricAir>(f, Side::kLeft));
+  const auto of = [f](Side side) {
+    return [f, side](double t) { return asymmetricLoads(f, t)[side]; };
+  };
+  FluidParticipant right(Side::kRight, model, std::make_unique<GivenLoads>(of(Side::kRight)));
+  FluidParticipant left(Side::kLeft, model, std::make_unique<GivenLoads>(of(Side::kLeft)));
   FlightParticipant flight(model);
   WingParticipant wing(model);
   GuidanceParticipant guidance(model, std::make_unique<MotionGuidance>(std::move(motion)));
@@ -210,7 +161,7 @@ DynamicsRows checkSixDof(const DynamicsFolders& folders) {
   const PrescribedState start = flight.motion(y, 0.0);
   integrate(flight, y, 0.0, c.time.period, 4000, [](const OdeState&, double) {});
   const PrescribedState exact = flight.motion(y, c.time.period);
-  const auto started = std::make_shared<StartedMotion>(motion, start);
+  const auto started = std::make_shared<ConsistentStart>(motion, start);
   DynamicsRows rows;
   double before = 0.0, order = 0.0;
   for (int steps : {250, 500, 1000, 2000}) {

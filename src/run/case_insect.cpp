@@ -130,7 +130,8 @@ void readOwnWing(Section& insect, const std::string& key, WingParameters both, W
   own("tip_lost", "", lost);
   if (!(lost >= 0.0 && lost <= 0.9))
     w.fault("tip_lost", " = " + exactText(lost) +
-                            ": must be in [0, 0.9], the share of the area that is cut off; 0 is a whole wing");
+                            ": must be in [0, 0.9], the share of the area that is cut off; 0 is a "
+                            "whole wing");
   w.finish();
   if (!w.clean() || !planform) return;
   both.mass *= 1.0 - lost;

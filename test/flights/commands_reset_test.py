@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """A run that a person leads by commands and sets back: what was commanded before leaves no trace."""
 import sys
-import time
 import unittest
 
 import flying
@@ -13,18 +12,7 @@ STEPS, FLAP, LED = 150, 100, 120
 
 class CommandsReset(leading.Leader):
     def test_commands_before_and_after_a_reset(self):
-        from monarch_flight.msg import WingbeatCommand
-        import rospy
-        publisher = rospy.Publisher("/monarch_flight/command", WingbeatCommand, queue_size=10)
-        process = self.start(*KEYS, "guidance:=commands", "paused:=true", "out:=" + self.out(),
-                             ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")
-        self.good("pause")
-        self.wait_for(publisher.get_num_connections, 20, "the coordinator to listen")
-
-        def command(**fields):
-            publisher.publish(WingbeatCommand(**fields))
-            time.sleep(1.0)  # a held run looks for messages, too
-
+        process, command = self.held_flight(*KEYS)
         command(amplitude=0.1, at_once=True)
         self.good("step", 20)
         command(amplitude=0.2)  # waits for the next flap, on which the reset comes first

@@ -20,18 +20,7 @@ COMMANDS = ("amplitude", "flapping_mean", "frequency", "deviation_mean", "rest_a
 
 class Commands(leading.Leader):
     def test_commands_on_the_topic(self):
-        from monarch_flight.msg import WingbeatCommand
-        import rospy
-        publisher = rospy.Publisher("/monarch_flight/command", WingbeatCommand, queue_size=10)
-        process = self.start(*KEYS, "guidance:=commands", "paused:=true", "out:=" + self.out(),
-                             ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")
-        self.good("pause")
-        self.wait_for(publisher.get_num_connections, 20, "the coordinator to listen")
-
-        def command(**fields):
-            publisher.publish(WingbeatCommand(**fields))
-            time.sleep(1.0)  # a held run looks for messages, too
-
+        process, command = self.held_flight(*KEYS)
         command(amplitude=0.1, deviation_mean=0.02)  # when the first flap begins
         self.good("step", 20)
         command(amplitude=0.5, deviation_mean=0.01, at_once=True)  # beyond the bounds

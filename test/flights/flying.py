@@ -78,6 +78,14 @@ class FlightTest(unittest.TestCase):
                 process.kill()
                 process.wait()
 
+    @staticmethod
+    def go_on(pid):
+        """After SIGSTOP."""
+        try:
+            os.kill(pid, signal.SIGCONT)
+        except ProcessLookupError:
+            pass
+
     def wait_for(self, condition, limit, what):
         deadline = time.monotonic() + limit
         while time.monotonic() < deadline:

@@ -1,6 +1,7 @@
 """A person in a test: leads a run of real nodes by its services, on a master of the test."""
 import os
 import subprocess
+import time
 
 import flying
 
@@ -20,6 +21,22 @@ class Leader(flying.FlightTest):
         # On wall time: a held run's clock stands still.
         import rospy
         rospy.init_node("person", disable_signals=True)
+
+    def held_flight(self, *keys):
+        """A flight that takes commands, held at its start, and how to send it one."""
+        import rospy
+        from monarch_flight.msg import WingbeatCommand
+        publisher = rospy.Publisher("/monarch_flight/command", WingbeatCommand, queue_size=10)
+        process = self.start(*keys, "guidance:=commands", "paused:=true", "out:=" + self.out(),
+                             ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")
+        self.good("pause")
+        self.wait_for(publisher.get_num_connections, 20, "the coordinator to listen")
+
+        def command(**fields):
+            publisher.publish(WingbeatCommand(**fields))
+            time.sleep(1.0)  # a held run looks for messages, too
+
+        return process, command
 
     def call(self, name, *arguments):
         import rospy

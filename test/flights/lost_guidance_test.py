@@ -58,13 +58,6 @@ class LostGuidance(Guided):
         self.assertEqual(code, 0, output)
         self.assertEqual(self.sha("out"), self.sha("prompt"))
 
-    @staticmethod
-    def go_on(pid):
-        try:
-            os.kill(pid, signal.SIGCONT)
-        except ProcessLookupError:
-            pass
-
     def test_killed_and_interrupted_flights_go_on(self):
         """Ctrl-C comes within a step, when guidance has prescribed the next level already."""
         keys = (*CLIMB, "flaps:=3", "checkpoint_every:=50")

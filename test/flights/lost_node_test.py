@@ -89,19 +89,12 @@ class LostNode(flying.FlightTest):
             f.write(text)
         process, pids = self.airborne(case)
         os.kill(pids["wing"], signal.SIGSTOP)
-        self.addCleanup(self.resume, pids["wing"])
+        self.addCleanup(self.go_on, pids["wing"])
         code, output = self.finish(process, LIMIT)
         self.assertNotIn(code, (0, 130), output)
         failure = flying.summary(self.out())["failure"]
         self.assertIn("the wing node", failure)
         self.assertIn("within 3.0 s (watchdog)", failure)
-
-    @staticmethod
-    def resume(pid):
-        try:
-            os.kill(pid, signal.SIGCONT)
-        except ProcessLookupError:
-            pass
 
     def test_interrupt_ends_cleanly(self):
         process, pids = self.airborne()
