@@ -59,10 +59,10 @@ PrescribedState fromMessage(const PrescribedLevel& prescribed) {
 
 WingbeatCommand toMessage(const WingbeatChange& change) {
   WingbeatCommand out;
-  out.amplitude_difference = change.amplitude_difference;
-  out.flapping_difference = change.flapping_difference;
-  out.deviation_difference = change.deviation_difference;
-  out.rest_angle_difference = change.rest_angle_difference;
+  out.differential_amplitude = change.differential_amplitude;
+  out.differential_flapping = change.differential_flapping;
+  out.differential_deviation = change.differential_deviation;
+  out.differential_rest_angle = change.differential_rest_angle;
   out.amplitude = change.amplitude;
   out.flapping_mean = change.flapping_mean;
   out.frequency = change.frequency;
@@ -81,10 +81,10 @@ WingbeatChange fromMessage(const WingbeatCommand& command) {
           command.rest_angle,
           command.abdomen_mean,
           command.abdomen_amplitude,
-          command.amplitude_difference,
-          command.flapping_difference,
-          command.deviation_difference,
-          command.rest_angle_difference};
+          command.differential_amplitude,
+          command.differential_flapping,
+          command.differential_deviation,
+          command.differential_rest_angle};
 }
 
 GuidanceState toMessage(const GuidanceReport& report) {

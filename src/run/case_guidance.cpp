@@ -43,8 +43,8 @@ void readLimits(Section& section, double period, bool mirrored, WingbeatSettings
         period;
   }
   if (mirrored) {
-    for (Command difference :
-         {kAmplitudeDifference, kFlappingDifference, kDeviationDifference, kRestAngleDifference})
+    for (Command difference : {kDifferentialAmplitude, kDifferentialFlapping,
+                               kDifferentialDeviation, kDifferentialRestAngle})
       settings.limits[difference].low = settings.limits[difference].high = 0.0;
   }
   limits.finish();

@@ -141,10 +141,10 @@ TEST(WingbeatGuidance, DifferencesAreOnTopForTheRightWingAndLessForTheLeftOne) {
   wanted.flapping_mean = 0.1;
   wanted.deviation_mean = 0.05;
   wanted.rest_angle = 0.07;
-  wanted.amplitude_difference = 0.2;
-  wanted.flapping_difference = -0.06;
-  wanted.deviation_difference = 0.02;
-  wanted.rest_angle_difference = 0.03;
+  wanted.differential_amplitude = 0.2;
+  wanted.differential_flapping = -0.06;
+  wanted.differential_deviation = 0.02;
+  wanted.differential_rest_angle = 0.03;
   Led led(std::make_unique<Scripted>([&](std::uint32_t) { return wanted; }));
   for (int i = 0; i < 10000; ++i) led.step();  // ten flaps: the filters have settled
   PerWing<std::array<double, 2>> low{{1e9, 1e9}, {1e9, 1e9}}, high{{-1e9, -1e9}, {-1e9, -1e9}};

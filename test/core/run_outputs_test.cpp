@@ -23,12 +23,13 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
       "FZ,sub_iterations,courant,phi_dot,phi_ddot,psi_dot,psi_ddot,theta_A_dot,theta_A_ddot,"
       "rest_angle,wx,wy,wz,wax,way,waz,phase,clipped,refused,lost,command_amplitude,"
       "command_flapping_mean,command_frequency,command_deviation_mean,command_rest_angle,"
-      "command_abdomen_mean,command_abdomen_amplitude,command_amplitude_difference,"
-      "command_flapping_difference,command_deviation_difference,command_rest_angle_difference,"
+      "command_abdomen_mean,command_abdomen_amplitude,command_differential_amplitude,"
+      "command_differential_flapping,command_differential_deviation,command_differential_rest_"
+      "angle,"
       "applied_amplitude,applied_flapping_mean,applied_frequency,applied_deviation_mean,"
       "applied_rest_angle,applied_abdomen_mean,applied_abdomen_amplitude,"
-      "applied_amplitude_difference,applied_flapping_difference,applied_deviation_difference,"
-      "applied_rest_angle_difference,phi_L,phi_L_dot,phi_L_ddot,psi_L,psi_L_dot,psi_L_ddot,"
+      "applied_differential_amplitude,applied_differential_flapping,applied_differential_deviation,"
+      "applied_differential_rest_angle,phi_L,phi_L_dot,phi_L_ddot,psi_L,psi_L_dot,psi_L_ddot,"
       "theta_L,theta_L_dot,theta_L_ddot,rest_angle_L,fx_L,fy_L,fz_L,mx_L,my_L,mz_L,roll,yaw,p,q,"
       "r");
   const double b = step.interface.body.pitch.q, r = step.interface.theta.right.q;

@@ -15,8 +15,8 @@ COLUMNS = (
     "sub_iterations courant phi_dot phi_ddot psi_dot psi_ddot theta_A_dot theta_A_ddot rest_angle "
     "wx wy wz wax way waz phase clipped refused lost").split()
 COMMANDS = ("amplitude flapping_mean frequency deviation_mean rest_angle abdomen_mean "
-            "abdomen_amplitude amplitude_difference flapping_difference deviation_difference "
-            "rest_angle_difference").split()
+            "abdomen_amplitude differential_amplitude differential_flapping differential_deviation "
+            "differential_rest_angle").split()
 COLUMNS += [kind + name for kind in ("command_", "applied_") for name in COMMANDS]
 # Of the left wing, as its mirror image, and of a body that leaves its plane.
 LEFT = ("phi_L phi_L_dot phi_L_ddot psi_L psi_L_dot psi_L_ddot theta_L theta_L_dot theta_L_ddot "

@@ -10,7 +10,7 @@
 namespace monarch_flight {
 
 /// What both wings do alike: the first commands of kCommandTable, the inputs that the law can have.
-inline constexpr std::size_t kAlikeCommands = kAmplitudeDifference;
+inline constexpr std::size_t kAlikeCommands = kDifferentialAmplitude;
 
 /// What a controller feeds back: velocity x, z (NED) relative to the air [m/s], theta_B [rad],
 /// theta_B' [rad/s] and, where the wing pitches passively, theta_R [rad], theta_R' [rad/s].

@@ -17,10 +17,10 @@ struct WingbeatChange {
   double abdomen_mean = 0.0;       ///< added to theta_A [rad]
   double abdomen_amplitude = 0.0;  ///< of the abdomen, relative
   // Between the wings, for wings that are independent.
-  double amplitude_difference = 0.0;   ///< of `amplitude`
-  double flapping_difference = 0.0;    ///< of `flapping_mean` [rad]
-  double deviation_difference = 0.0;   ///< of `deviation_mean` [rad]
-  double rest_angle_difference = 0.0;  ///< of `rest_angle` [rad]
+  double differential_amplitude = 0.0;   ///< of `amplitude`
+  double differential_flapping = 0.0;    ///< of `flapping_mean` [rad]
+  double differential_deviation = 0.0;   ///< of `deviation_mean` [rad]
+  double differential_rest_angle = 0.0;  ///< of `rest_angle` [rad]
 };
 
 /// The commands one by one, for everything that goes through all of them: index in kCommandTable.
@@ -32,23 +32,23 @@ enum Command : std::size_t {
   kRestAngleCommand,
   kAbdomenMeanCommand,
   kAbdomenAmplitudeCommand,
-  kAmplitudeDifference,
-  kFlappingDifference,
-  kDeviationDifference,
-  kRestAngleDifference
+  kDifferentialAmplitude,
+  kDifferentialFlapping,
+  kDifferentialDeviation,
+  kDifferentialRestAngle
 };
 inline constexpr std::size_t kCommands = 11;
 /// The command that tells the wings apart in this one; nothing: they always do the same.
 inline std::optional<Command> differenceOf(Command both) {
   switch (both) {
     case kAmplitudeCommand:
-      return kAmplitudeDifference;
+      return kDifferentialAmplitude;
     case kFlappingMeanCommand:
-      return kFlappingDifference;
+      return kDifferentialFlapping;
     case kDeviationMeanCommand:
-      return kDeviationDifference;
+      return kDifferentialDeviation;
     case kRestAngleCommand:
-      return kRestAngleDifference;
+      return kDifferentialRestAngle;
     default:
       return std::nullopt;
   }
@@ -66,10 +66,10 @@ inline constexpr std::array<CommandInfo, kCommands> kCommandTable = {
      {"rest_angle", "rad", &WingbeatChange::rest_angle},
      {"abdomen_mean", "rad", &WingbeatChange::abdomen_mean},
      {"abdomen_amplitude", "", &WingbeatChange::abdomen_amplitude},
-     {"amplitude_difference", "", &WingbeatChange::amplitude_difference},
-     {"flapping_difference", "rad", &WingbeatChange::flapping_difference},
-     {"deviation_difference", "rad", &WingbeatChange::deviation_difference},
-     {"rest_angle_difference", "rad", &WingbeatChange::rest_angle_difference}}};
+     {"differential_amplitude", "", &WingbeatChange::differential_amplitude},
+     {"differential_flapping", "rad", &WingbeatChange::differential_flapping},
+     {"differential_deviation", "rad", &WingbeatChange::differential_deviation},
+     {"differential_rest_angle", "rad", &WingbeatChange::differential_rest_angle}}};
 
 /// What guidance has done by a time level.
 struct GuidanceReport {
