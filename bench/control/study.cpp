@@ -1,5 +1,7 @@
 // How well a controller holds in quasi-steady air: long flight, random starts, gusts, set points
 // moved (docs/guidance.md). scripts/study_control calls it.
+#include "control/study.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,36 +13,25 @@
 #include "monarch_flight/insect/gusts.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/trim/command.h"
-#include "monarch_flight/trim/controlled_flight.h"
 
 namespace monarch_flight {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
-
-/// The insect, its law, and what the law is asked to hold.
-struct Subject {
-  Case c;
-  WingbeatSettings wingbeat;
-  ControllerSettings law;
-  SetPoint wanted;
-  ControlledFlight fly(const ControlledStart& start) const {
-    return flyControlled(c, wingbeat, law, start);
-  }
-};
 
 bool near(const ControlledFlap& flap, const SetPoint& wanted, double speed, double climb) {
   return std::abs(flap.speed - wanted.speed) <= speed &&
          std::abs(flap.climb - wanted.climb) <= climb;
 }
 
-/// Flaps after which the flight stays near the set point; none: -1.
+}  // namespace
+
 int settled(const ControlledFlight& flight, const SetPoint& wanted, std::size_t from) {
   if (!flight.complete || flight.lost) return -1;
   std::size_t last = flight.flaps.size();
   while (last > from && near(flight.flaps[last - 1], wanted, 0.05, kDegree)) --last;
   return last == flight.flaps.size() ? -1 : static_cast<int>(last - from);
 }
+
+namespace {
 
 void hold(const Subject& s, int flaps) {
   ControlledStart start;
@@ -159,6 +150,7 @@ void step(Subject s, double speed, double climb) {
 
 Subject subjectOf(TrimCommand command, const std::string& config_dir) {
   command.overrides["fluid"] = "quasi_steady";
+  command.control->limits = ControlOptions::usualLimits(config_dir);
   Subject s{loadCase(command.case_name, command.overrides, config_dir), {}, {}, {}};
   if (s.c.guidance.controller) {
     s.wingbeat = s.c.guidance.wingbeat;
@@ -184,6 +176,8 @@ void study(const Subject& s, const std::string& what, int flaps) {
   for (double speed : {1.0, 1.8}) step(s, speed, s.wanted.climb);
 }
 
+const std::vector<std::string> kStudies = {"hold", "starts", "gust", "steps"};
+
 int run(std::vector<std::string> arguments, const std::string& config_dir) {
   std::string what;
   const auto own = std::find_if(arguments.begin(), arguments.end(),
@@ -191,13 +185,20 @@ int run(std::vector<std::string> arguments, const std::string& config_dir) {
   if (own != arguments.end()) {
     what = own->substr(7);
     arguments.erase(own);
-    if (what != "hold" && what != "starts" && what != "gust" && what != "steps")
-      throw InputError("study:=" + what + ": must be hold, starts, gust or steps; choose one");
+    std::string known;
+    for (const auto* names : {&kStudies, &kLateralStudies})
+      for (const std::string& name : *names) known += (known.empty() ? "" : ", ") + name;
+    if ((", " + known + ",").find(", " + what + ",") == std::string::npos)
+      throw InputError("study:=" + what + ": must be one of " + known + "; choose one");
   }
   arguments.push_back("control:=true");
   TrimCommand command = trimCommand(arguments);
   const int flaps = command.fly > 0 ? command.fly : 200;
-  study(subjectOf(std::move(command), config_dir), what, flaps);
+  ControlOptions options = *command.control;
+  options.limits = ControlOptions::usualLimits(config_dir);
+  const Subject subject = subjectOf(std::move(command), config_dir);
+  study(subject, what, flaps);
+  lateralStudy(subject, what, options, config_dir);
   return 0;
 }
 

@@ -50,6 +50,34 @@ class Problems {
   std::vector<std::string> list;
 };
 
+void checkInputs(const std::vector<std::size_t>& inputs, std::size_t first, std::size_t last,
+                 const std::string& section, const std::string& example, Problems& problems) {
+  const std::set<std::size_t> different(inputs.begin(), inputs.end());
+  if (inputs.empty() || different.size() != inputs.size() || *different.begin() < first ||
+      *different.rbegin() >= last)
+    problems.add(section + "inputs",
+                 "be different commands of its own, at least one; as " + example);
+}
+
+void checkGains(const FeedbackGains& gains, int samples, int states, const std::string& section,
+                Problems& problems) {
+  const Index m = gains.size(), rows = m * samples;
+  problems.shape(section + "gains/state", gains.state, rows, states);
+  problems.shape(section + "gains/filter", gains.filter, rows, 3 * m);
+  problems.shape(section + "gains/integral", gains.integral, rows, 2);
+}
+
+void checkLateral(const LateralSettings& lateral, int samples, int states, Problems& problems) {
+  checkInputs(lateral.gains.inputs, kAlikeCommands, kCommands, "lateral/",
+              "differential_deviation, differential_rest_angle", problems);
+  checkGains(lateral.gains, samples, states, "lateral/", problems);
+  problems.shape("lateral/turn/commands", lateral.turn_commands, lateral.gains.size(), 1);
+  problems.shape("lateral/turn/states", lateral.turn_states, samples, states);
+  problems.shape("lateral/straight/commands", lateral.commands, lateral.gains.size(), 1);
+  problems.shape("lateral/straight/states", lateral.states, samples, states);
+  problems.positive("lateral/turn/most_deg", lateral.turn, "5 deg a flap is usual");
+}
+
 void checkSetPoints(const std::vector<SetPoint>& points, Problems& problems) {
   if (points.empty()) problems.add("set_points", "hold at least one set point; give one");
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -57,6 +85,8 @@ void checkSetPoints(const std::vector<SetPoint>& points, Problems& problems) {
     problems.positive(key + " speed", points[i].speed, "give the speed over ground in m/s");
     if (!std::isfinite(points[i].climb) || !(std::abs(points[i].climb) < 0.5 * M_PI))
       problems.add(key + " climb", "be between -90 and 90 deg; correct it");
+    if (points[i].heading && !std::isfinite(*points[i].heading))
+      problems.add(key + " heading", "be a number; correct it");
     if (!std::isfinite(points[i].flap) || (i > 0 && !(points[i - 1].flap < points[i].flap)))
       problems.add(key + " flap", "be a number above that of the set point before; sort them");
   }
@@ -119,20 +149,17 @@ std::vector<std::string> ControllerSettings::problems() const {
     problems.add("samples = " + std::to_string(samples), "be >= 1 a flap; 10 is usual");
     return problems.list;
   }
-  const std::set<std::size_t> different(inputs.begin(), inputs.end());
-  if (inputs.empty() || different.size() != inputs.size() || *different.rbegin() >= kCommands)
-    problems.add("inputs", "be different commands, at least one; as [amplitude, deviation_mean]");
+  checkInputs(gains.inputs, 0, kAlikeCommands, "", "amplitude, deviation_mean", problems);
   if (table.speeds().empty() || !ascending(table.speeds()) || !(table.speeds().front() > 0.0))
     problems.add("table/speeds", "be > 0 and ascend; sort them");
   if (table.climbs().empty() || !ascending(table.climbs()))
     problems.add("table/climbs_deg", "ascend, at least one; sort them");
-  const auto m = static_cast<Index>(inputs.size());
+  const Index m = gains.size();
   const auto points = static_cast<Index>(table.speeds().size() * table.climbs().size());
   problems.shape("table/commands", table.commands(), points, m);
   problems.shape("table/states", table.states(), points * samples, states());
-  problems.shape("gains/state", state_gain, m * samples, states());
-  problems.shape("gains/filter", filter_gain, m * samples, 3 * m);
-  problems.shape("gains/integral", integral_gain, m * samples, 2);
+  checkGains(gains, samples, states(), "", problems);
+  if (lateral) checkLateral(*lateral, samples, lateralStates(), problems);
   checkSetPoints(set_points, problems);
   problems.positive("time_constant", time_constant, "it is that of guidance/time_constant");
   problems.positive("slew", slew, "0.1 m/s a flap is usual");

@@ -19,10 +19,11 @@ ControllerSettings checked(ControllerSettings settings) {
 }  // namespace
 
 FlightController::FlightController(ControllerSettings settings)
-    : settings_(checked(std::move(settings))) {
+    : settings_(checked(std::move(settings))), law_(settings_.gains) {
   const auto n = static_cast<Eigen::Index>(settings_.states());
-  const auto m = static_cast<Eigen::Index>(settings_.inputs.size());
-  now_.commands = asked_ = excess_ = ControlInput::Zero(m);
+  if (settings_.lateral)
+    lateral_.emplace(*settings_.lateral, settings_.samples, settings_.wing_pitch);
+  now_.commands = ControlInput::Zero(law_.gains().size());
   now_.state = now_.next = deviation_ = ControlState::Zero(n);
   start();
 }
@@ -37,16 +38,16 @@ void FlightController::start() {
   wind_mean_.setZero();
   reference_velocity_.setZero();
   orbit_velocity_.setZero();
-  integral_.setZero();
-  asked_.setZero();
-  excess_.setZero();
+  law_.start();
+  if (lateral_) lateral_->start();
   limited_flaps_ = 0.0;
   lost_ = false;
 }
 
 std::optional<WingbeatChange> FlightController::next(const WingbeatLevel& level) {
-  const Air now = air(level.level);
-  average(now);
+  const HeadingMotion body = headingMotion(level.level.interface.body);
+  const Air now = air(level.level, body);
+  average(body, now);
   const double index = std::floor(level.phase * settings_.samples + kOnTime);
   if (begun_ && index == index_) return std::nullopt;
   sample(level, now, index);
@@ -56,16 +57,20 @@ std::optional<WingbeatChange> FlightController::next(const WingbeatLevel& level)
   levels_ = 0.0;
   index_ = index;
   begun_ = true;
-  return change();
+  WingbeatChange wanted;
+  law_.write(wanted);
+  if (lateral_) lateral_->write(wanted);
+  return wanted;
 }
 
-FlightController::Air FlightController::air(const GuidanceInput& level) const {
-  const Eigen::Vector3d& v = level.interface.body.v;
-  const Eigen::Vector3d& wind = level.prescribed.wind.v;
-  return {{v.x() - wind.x(), v.z() - wind.z()}, {wind.x(), wind.z()}};
+FlightController::Air FlightController::air(const GuidanceInput& level, const HeadingMotion& body) {
+  const Eigen::Vector3d& v = body.velocity;
+  const Eigen::Vector3d wind = inHeading(level.prescribed.wind.v, body.yaw.q);
+  return {{v.x() - wind.x(), v.z() - wind.z()}, {wind.x(), wind.z()}, v.y() - wind.y()};
 }
 
-void FlightController::average(const Air& now) {
+void FlightController::average(const HeadingMotion& body, const Air& now) {
+  if (lateral_) lateral_->average(body, now.side_velocity);
   if (!begun_) return;
   velocity_sum_ += 0.5 * (last_velocity_ + now.velocity);
   wind_sum_ += now.wind;
@@ -87,11 +92,23 @@ void FlightController::sample(const WingbeatLevel& level, const Air& now, double
   const bool active = !first && !prescribed && !lost_;
   const bool is_limited = active && limited(level.command);
   limited_flaps_ = is_limited ? limited_flaps_ + (index - index_) / N : 0.0;
-  if (active) integrate(phase);
+  if (active)
+    law_.integrate(phase, (velocity_sum_ / levels_ - orbit_velocity_) / settings_.samples);
   settings_.table.at(reference_velocity_, phase, now_);
   orbit_velocity_ = now_.velocity;
-  asked_ = now_.commands;
+  law_.refer(now_.commands);
+  if (lateral_) {
+    lateral_->move(phase, first ? 0.0 : (index - index_) / N, heading(level.phase), active);
+    lateral_->refer();
+  }
   if (!prescribed && !lost_) feedBack(level, now, phase);
+}
+
+std::optional<double> FlightController::heading(double flap) const {
+  std::optional<double> wanted;
+  for (const SetPoint& point : settings_.set_points)
+    if (point.heading && point.flap <= flap + kOnTime) wanted = point.heading;
+  return wanted;
 }
 
 /// Towards the newest set point, seen through the air.
@@ -105,25 +122,10 @@ void FlightController::moveReference(double flap, double flaps) {
   reference_velocity_ += length > most ? Eigen::Vector2d(way * (most / length)) : way;
 }
 
-/// Whether the command of the last sample was cut, and by how much.
+/// Whether a command of the last sample was cut.
 bool FlightController::limited(const WingbeatChange& taken) {
-  for (std::size_t i = 0; i < settings_.inputs.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    excess_(k) = asked_(k) - taken.*kCommandTable[settings_.inputs[i]].value;
-  }
-  return (excess_.array() != 0.0).any();
-}
-
-/// Adds the last sample's mean, unless it would drive a limited input further.
-void FlightController::integrate(int phase) {
-  const Eigen::Vector2d step = (velocity_sum_ / levels_ - orbit_velocity_) / settings_.samples;
-  const Eigen::Index m = asked_.size();
-  const auto gain = settings_.integral_gain.middleRows(phase * m, m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const double drive = -(gain(i, 0) * step.x() + gain(i, 1) * step.y());
-    if (drive * excess_(i) > 0.0) return;
-  }
-  integral_ += step;
+  const bool in_plane = law_.limited(taken);
+  return (lateral_ && lateral_->limited(taken)) || in_plane;
 }
 
 void FlightController::feedBack(const WingbeatLevel& level, const Air& now, int phase) {
@@ -131,27 +133,19 @@ void FlightController::feedBack(const WingbeatLevel& level, const Air& now, int 
   deviation_.head<2>() = now.velocity;
   deviation_(2) = at.body.pitch.q;
   deviation_(3) = at.body.pitch.qd;
-  if (settings_.wing_pitch) deviation_.tail<2>() << at.theta.right.q, at.theta.right.qd;
+  if (settings_.wing_pitch) {
+    const auto& [right, left] = at.theta;
+    deviation_.tail<2>() << 0.5 * (right.q + left.q), 0.5 * (right.qd + left.qd);
+  }
   deviation_ -= now_.state;
   lost_ = !deviation_.allFinite() || !(std::abs(deviation_(2)) <= settings_.lost_pitch) ||
           limited_flaps_ > settings_.lost_flaps;
   if (lost_) return;
-  const Eigen::Index m = asked_.size();
-  asked_.noalias() -= settings_.state_gain.middleRows(phase * m, m) * deviation_;
-  asked_.noalias() -= settings_.integral_gain.middleRows(phase * m, m) * integral_;
-  const auto gain = settings_.filter_gain.middleRows(phase * m, m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const Coordinate& c = level.applied[settings_.inputs[static_cast<std::size_t>(i)]];
-    asked_ -= gain.col(3 * i) * (c.q - now_.commands(i)) + gain.col(3 * i + 1) * c.qd +
-              gain.col(3 * i + 2) * c.qdd;
+  if (lateral_ && !lateral_->feedBack(phase, at, settings_.lost_pitch, level.applied)) {
+    lost_ = true;
+    return;
   }
-}
-
-WingbeatChange FlightController::change() const {
-  WingbeatChange wanted;
-  for (std::size_t i = 0; i < settings_.inputs.size(); ++i)
-    wanted.*kCommandTable[settings_.inputs[i]].value = asked_(static_cast<Eigen::Index>(i));
-  return wanted;
+  law_.feedBack(phase, deviation_, level.applied);
 }
 
 void FlightController::memory(StateVisitor& state) {
@@ -164,8 +158,8 @@ void FlightController::memory(StateVisitor& state) {
   state("controller_wind_mean", wind_mean_);
   state("controller_reference", reference_velocity_);
   state("controller_orbit_velocity", orbit_velocity_);
-  state("controller_integral", integral_);
-  state("controller_asked", asked_);
+  law_.memory(state, "controller");
+  if (lateral_) lateral_->memory(state);
   state("controller_limited_flaps", limited_flaps_);
   state("controller_lost", lost_);
 }

@@ -47,6 +47,7 @@ PrescribedState StartMotion::at(double t) const {
   if (start_.theta_R) {
     for (Side side : kSides) state.angles.wings[side].theta = start_.theta_R->at(elapsed);
   }
+  if (start_.theta_L) state.angles.wings.left.theta = start_.theta_L->at(elapsed);
   return state;
 }
 

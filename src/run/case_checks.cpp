@@ -107,6 +107,10 @@ StartValues startValues(const Case& c, const InitialValues& initial, const Presc
   needsFree("yaw_dot", initial.yaw_dot, c.free[kYaw], "yaw");
   needsFree("theta_R", initial.theta_R, c.free[kThetaR], "wing_pitch");
   needsFree("theta_R_dot", initial.theta_R_dot, c.free[kThetaR], "wing_pitch");
+  if (!c.mirrored) {
+    needsFree("theta_L", initial.theta_L, c.free[kThetaL], "wing_pitch");
+    needsFree("theta_L_dot", initial.theta_L_dot, c.free[kThetaL], "wing_pitch");
+  }
 
   StartValues start;
   const auto along = [&](int i) {
@@ -123,6 +127,10 @@ StartValues startValues(const Case& c, const InitialValues& initial, const Presc
   if (c.free[kThetaR]) {
     start.theta_R =
         completed(initial.theta_R, initial.theta_R_dot, at_start.angles.wings.right.theta);
+  }
+  if (c.free[kThetaL] && (initial.theta_L || initial.theta_L_dot)) {
+    start.theta_L =
+        completed(initial.theta_L, initial.theta_L_dot, at_start.angles.wings.left.theta);
   }
   return start;
 }

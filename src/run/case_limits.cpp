@@ -66,6 +66,12 @@ void checkMirrored(const Case& c, const CaseMotion& motion, const InitialValues&
     faults.add("initial/velocity[1] = " + exactText(initial.velocity->y()) +
                " m/s: must be 0" + kMirrored + "set it to 0");
   }
+  for (const auto& [name, value] :
+       {std::pair{"theta_L", initial.theta_L}, {"theta_L_dot", initial.theta_L_dot}}) {
+    if (value)
+      faults.add(std::string("initial/") + name + " = " + exactText(*value) + ": must be none" +
+                 kMirrored + "set it to none");
+  }
   for (const auto& [name, i] : {std::pair{"y", kY}, {"roll", kRoll}, {"yaw", kYaw}}) {
     if (c.free[i])
       faults.add(

@@ -154,8 +154,9 @@ InitialValues readInitial(Section& root) {
   InitialValues initial;
   if (!root.has("initial")) {
     Section section = root.putSection("initial");
-    for (const char* key : {"position", "velocity", "theta_B", "theta_B_dot", "theta_R",
-                            "theta_R_dot", "roll", "yaw", "roll_dot", "yaw_dot"}) {
+    for (const char* key :
+         {"position", "velocity", "theta_B", "theta_B_dot", "theta_R", "theta_R_dot", "theta_L",
+          "theta_L_dot", "roll", "yaw", "roll_dot", "yaw_dot"}) {
       section.put(key, std::string("none"));
     }
     return initial;
@@ -167,6 +168,8 @@ InitialValues readInitial(Section& root) {
   initial.theta_B_dot = section.maybeNumber("theta_B_dot", {Bound::kAny, "rad/s", "or none"});
   initial.theta_R = section.maybeNumber("theta_R", {Bound::kAny, "rad", "or none"});
   initial.theta_R_dot = section.maybeNumber("theta_R_dot", {Bound::kAny, "rad/s", "or none"});
+  initial.theta_L = section.maybeNumber("theta_L", {Bound::kAny, "rad", "or none"});
+  initial.theta_L_dot = section.maybeNumber("theta_L_dot", {Bound::kAny, "rad/s", "or none"});
   initial.roll = section.maybeNumber("roll", {Bound::kAny, "rad", "or none"});
   initial.yaw = section.maybeNumber("yaw", {Bound::kAny, "rad", "or none"});
   initial.roll_dot = section.maybeNumber("roll_dot", {Bound::kAny, "rad/s", "or none"});

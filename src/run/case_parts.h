@@ -29,6 +29,7 @@ struct CaseMotion {
 struct InitialValues {
   std::optional<Eigen::Vector3d> position, velocity;
   std::optional<double> theta_B, theta_B_dot, theta_R, theta_R_dot;
+  std::optional<double> theta_L, theta_L_dot;          ///< none: as theta_R; as the mirror image
   std::optional<double> roll, roll_dot, yaw, yaw_dot;  ///< z-y-x angles
 };
 

@@ -76,11 +76,14 @@ void readGrid(Section section, Case& c, Faults& faults) {
 FreeCoordinates readFree(Section section, bool mirrored) {
   FreeCoordinates free;
   free[kX] = section.flag("x");
-  free[kY] = section.flag("y");
   free[kZ] = section.flag("z");
-  free[kRoll] = section.flag("roll");
   free[kPitch] = section.flag("pitch");
-  free[kYaw] = section.flag("yaw");
+  // Who is free in the plane is free out of it, too, where nothing keeps both sides alike.
+  const bool flies = !mirrored && free[kX] && free[kZ] && free[kPitch];
+  for (const auto& [name, i] : {std::pair{"y", kY}, {"roll", kRoll}, {"yaw", kYaw}}) {
+    free[i] = section.has(name) ? section.flag(name) : flies;
+    section.put(name, std::string(free[i] ? "true" : "false"));
+  }
   free[kThetaR] = section.flag("wing_pitch");
   free[kThetaL] = free[kThetaR] && !mirrored;
   section.finish();

@@ -86,6 +86,11 @@ void CaseEdit::setSeries(const Path& path, const FourierSeries& series, double u
   parent(path)[path.back()] = node;
 }
 
+void CaseEdit::open(const Path& path) {
+  YAML::Node above = parent(path);
+  if (!above[path.back()].IsDefined()) above[path.back()] = YAML::Node(YAML::NodeType::Map);
+}
+
 void CaseEdit::remove(const Path& path) { parent(path).remove(path.back()); }
 
 std::string CaseEdit::text() const { return text({}); }

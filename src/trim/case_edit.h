@@ -23,6 +23,8 @@ class CaseEdit {
   void setVector(const Path& path, const Eigen::Vector3d& value);
   /// A0, AN, BN, multiple, each coefficient times `unit`.
   void setSeries(const Path& path, const FourierSeries& series, double unit);
+  /// An empty section where there is none.
+  void open(const Path& path);
   void remove(const Path& path);
   std::string text() const;
   /// The text with these comment lines before the keys of these paths ("insect/wing/kappa").

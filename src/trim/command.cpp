@@ -15,8 +15,9 @@ constexpr double kDegrees = 180.0 / M_PI;
 constexpr int kShortRunIn = 10;  // steps, the paper's start, where the air has no memory
 
 std::size_t size(const Case& c, const TrimOptions& options) {
-  const std::size_t states = (c.free[kX] ? 1u : 0u) + (c.free[kZ] ? 1u : 0u) +
-                             (c.free[kPitch] ? 2u : 0u) + (c.free[kThetaR] ? 2u : 0u);
+  std::size_t states = 0;
+  for (FreeCoordinate i : {kX, kY, kZ, kYaw}) states += c.free[i] ? 1u : 0u;
+  for (FreeCoordinate i : {kRoll, kPitch, kThetaR, kThetaL}) states += c.free[i] ? 2u : 0u;
   return states + options.parameters.size();
 }
 
@@ -60,15 +61,16 @@ void writeResult(const std::string& path, const FlapMap& map, const TrimOptions&
 
 void printFlight(std::ostream& out, const Flight& flight) {
   out << "flap  climb deg  speed m/s  theta_B mean, swing, largest deg  theta_R swing deg  "
-         "change\n";
+         "turn deg  change\n";
   int number = 0;
   for (const Flap& flap : flight.flaps) {
     const FlapState change = (flap.end - flap.start).cwiseQuotient(trimScales());
     char line[160];
-    std::snprintf(line, sizeof line, "%4d  %9.2f  %9.3f  %12.2f %6.2f %8.2f  %22.2f  %10.3g\n",
-                  ++number, flap.climb * kDegrees, flap.speed, flap.theta_B_mean * kDegrees,
-                  flap.theta_B_swing * kDegrees, flap.theta_B_largest * kDegrees,
-                  flap.theta_R_swing * kDegrees, change.cwiseAbs().maxCoeff());
+    std::snprintf(
+        line, sizeof line, "%4d  %9.2f  %9.3f  %12.2f %6.2f %8.2f  %22.2f  %8.2f  %6.3g\n",
+        ++number, flap.climb * kDegrees, flap.speed, flap.theta_B_mean * kDegrees,
+        flap.theta_B_swing * kDegrees, flap.theta_B_largest * kDegrees,
+        flap.theta_R_swing * kDegrees, flap.turn * kDegrees, change.cwiseAbs().maxCoeff());
     out << line;
   }
   if (!flight.complete) out << "the flight ended: " << flight.failure << '\n';

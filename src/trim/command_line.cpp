@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kRadians = M_PI / 180.0;
 const char kKnown[] =
-    "case, fluid, grid, steps_per_flap, fit, climb, speed, pitch, swing, horizon, start, run_in, "
+    "case, fluid, grid, wings, steps_per_flap, fit, climb, speed, pitch, swing, horizon, start, "
+    "run_in, "
     "iterations, tolerance, difference, threads, jacobian, out, fly, control, samples, inputs, "
-    "time_constant, orbit, gains, speeds, climbs";
+    "lateral_inputs, turn, time_constant, orbit, gains, speeds, climbs";
 
 /// All key:=value arguments, with what is wrong in them.
 class Arguments {
@@ -132,16 +133,17 @@ std::vector<TrimTarget> targets(Arguments& arguments) {
 void readStart(Arguments& arguments, TrimOptions& options) {
   if (!arguments.has("start")) return;
   const auto parts = split(arguments.text("start"), ',');
-  if (parts.size() != 6) {
+  if (parts.size() != kInPlaneStates && parts.size() != kFlapStates) {
     arguments.faults.push_back("start:=" + arguments.text("start") +
-                               ": must be six numbers u,w,theta_B,theta_B_dot,theta_R,theta_R_dot "
-                               "[m/s, rad, rad/s]; correct it");
+                               ": must be six numbers u,w,theta_B,theta_B_dot,theta_R,theta_R_dot, "
+                               "with independent wings six more, v,roll,roll_dot,yaw_dot,theta_L,"
+                               "theta_L_dot [m/s, rad, rad/s]; correct it");
     return;
   }
-  FlapState state;
-  for (int i = 0; i < 6; ++i) {
-    state(i) = arguments.number("start", parts[static_cast<std::size_t>(i)], -1e4, 1e4);
-  }
+  FlapState state = FlapState::Zero();
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    state(static_cast<int>(i)) = arguments.number("start", parts[i], -1e4, 1e4);
+  if (parts.size() == kInPlaneStates) state.tail<2>() = state.segment<2>(4);
   options.start = state;
 }
 
@@ -154,18 +156,20 @@ std::vector<double> numberList(Arguments& arguments, const char* key, double low
   return values;
 }
 
-std::vector<std::size_t> inputList(Arguments& arguments) {
+/// Commands from `first` on and before `last`.
+std::vector<std::size_t> inputList(Arguments& arguments, const char* key, std::size_t first,
+                                   std::size_t last) {
   std::vector<std::size_t> inputs;
   std::string names;
-  for (std::size_t i = 0; i < kAlikeCommands; ++i)
+  for (std::size_t i = first; i < last; ++i)
     names += (names.empty() ? "" : ", ") + std::string(kCommandTable[i].name);
-  for (const std::string& name : split(arguments.text("inputs"), ',')) {
-    std::size_t i = 0;
-    while (i < kAlikeCommands && name != kCommandTable[i].name) ++i;
+  for (const std::string& name : split(arguments.text(key), ',')) {
+    std::size_t i = first;
+    while (i < last && name != kCommandTable[i].name) ++i;
     const bool again = std::find(inputs.begin(), inputs.end(), i) != inputs.end();
-    if (i == kAlikeCommands || again) {
-      arguments.faults.push_back("inputs:=" + name + ": must be different ones of " + names +
-                                 "; as amplitude,deviation_mean");
+    if (i == last || again) {
+      arguments.faults.push_back(std::string(key) + ":=" + name + ": must be different ones of " +
+                                 names + "; with commas between them");
     }
     inputs.push_back(i);
   }
@@ -180,7 +184,10 @@ std::optional<ControlOptions> control(Arguments& arguments) {
   if (wanted != "true") return std::nullopt;
   ControlOptions options;
   options.samples = arguments.whole("samples", 1, 1000, options.samples);
-  if (arguments.has("inputs")) options.inputs = inputList(arguments);
+  if (arguments.has("inputs")) options.inputs = inputList(arguments, "inputs", 0, kAlikeCommands);
+  if (arguments.has("lateral_inputs"))
+    options.lateral_inputs = inputList(arguments, "lateral_inputs", kAlikeCommands, kCommands);
+  if (arguments.has("turn")) options.turn = kRadians * arguments.number("turn", 1e-3, 360.0, 5.0);
   options.time_constant = arguments.number("time_constant", 1e-3, 10.0, options.time_constant);
   if (arguments.has("speed")) options.speed = arguments.number("speed", 1e-3, 100.0, 1.0);
   if (arguments.has("climb"))
@@ -201,7 +208,7 @@ TrimCommand trimCommand(const std::vector<std::string>& given) {
   Arguments arguments(given);
   TrimCommand command;
   if (arguments.has("case")) command.case_name = arguments.text("case");
-  for (const char* key : {"fluid", "grid", "steps_per_flap"}) {
+  for (const char* key : {"fluid", "grid", "wings", "steps_per_flap"}) {
     if (arguments.has(key)) command.overrides[key] = arguments.text(key);
   }
   if (command.overrides.count("fluid") == 0) command.overrides["fluid"] = "quasi_steady";

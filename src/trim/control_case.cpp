@@ -1,4 +1,5 @@
 // What a design says of itself: a section of a case file, with where its numbers come from.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -25,14 +26,18 @@ std::string list(const std::vector<double>& values, double unit) {
 }
 
 /// A key with rows of numbers; eight digits are more than a gain is worth.
-void rows(std::ostream& out, const std::string& key, const Eigen::MatrixXd& m) {
+std::string row(const Eigen::RowVectorXd& values) {
   constexpr int kDigits = 8;
-  out << "      " << key << ":\n";
-  for (Index i = 0; i < m.rows(); ++i) {
-    out << "        - [";
-    for (Index k = 0; k < m.cols(); ++k) out << (k > 0 ? ", " : "") << number(m(i, k), kDigits);
-    out << "]\n";
-  }
+  std::string text;
+  for (double value : values) text += (text.empty() ? "" : ", ") + number(value, kDigits);
+  return "[" + text + "]";
+}
+
+/// In a section that stands at `indent`.
+void rows(std::ostream& out, const std::string& indent, const std::string& key,
+          const Eigen::MatrixXd& m) {
+  out << indent << "  " << key << ":\n";
+  for (Index i = 0; i < m.rows(); ++i) out << indent << "    - " << row(m.row(i)) << '\n';
 }
 
 std::string multiplierText(const std::vector<std::complex<double>>& all) {
@@ -43,6 +48,35 @@ std::string multiplierText(const std::vector<std::complex<double>>& all) {
     if (value.imag() > 0.0) text += " +- " + number(value.imag(), 3) + "i";
   }
   return text;
+}
+
+void gainRows(std::ostream& out, const FeedbackGains& gains, const std::string& indent) {
+  out << indent << "# Rows: sample by sample, in each the inputs.\n" << indent << "gains:\n";
+  rows(out, indent, "state", gains.state);
+  rows(out, indent, "filter", gains.filter);
+  rows(out, indent, "integral", gains.integral);
+}
+
+std::string namesOf(const std::vector<std::size_t>& inputs) {
+  std::string names;
+  for (std::size_t i : inputs)
+    names += (names.empty() ? "" : ", ") + std::string(kCommandTable[i].name);
+  return names;
+}
+
+void lateralSection(std::ostream& out, const LateralSettings& lateral) {
+  out << "    lateral:\n      inputs: " << namesOf(lateral.gains.inputs)
+      << "\n      # A turn without side-slip, per rad a flap: commands, and the states of each "
+         "sample.\n"
+      << "      turn:\n        most_deg: " << number(lateral.turn / kDegree, 8)
+      << "\n        commands: " << row(lateral.turn_commands) << '\n';
+  rows(out, "      ", "states", lateral.turn_states);
+  if (!lateral.commands.isZero(0.0) || !lateral.states.isZero(0.0)) {
+    out << "      # The same of the flight straight on, of wings that differ.\n      straight:\n"
+        << "        commands: " << row(lateral.commands) << '\n';
+    rows(out, "      ", "states", lateral.states);
+  }
+  gainRows(out, lateral.gains, "      ");
 }
 
 void provenance(std::ostream& out, const Case& c, const ControlDesign& d) {
@@ -58,23 +92,29 @@ void provenance(std::ostream& out, const Case& c, const ControlDesign& d) {
       << indent << "Trims: " << d.settings.table.commands().rows()
       << ", largest change over a flap " << number(d.residual, 2) << " (scaled).\n"
       << indent << "Floquet multipliers a flap (those above 0.01), without control: "
-      << multiplierText(d.open_loop) << ";\n"
-      << indent << "with it: " << multiplierText(d.closed_loop) << " (largest "
-      << number(std::abs(d.closed_loop.front()), 4) << ").\n";
+      << multiplierText(d.in_plane.open_loop) << ";\n"
+      << indent << "with it: " << multiplierText(d.in_plane.closed_loop) << " (largest "
+      << number(std::abs(d.in_plane.closed_loop.front()), 4) << ").\n";
+  if (d.lateral)
+    out << indent << "Lateral, without control (1: the heading and the integrals): "
+        << multiplierText(d.lateral->open_loop) << ";\n"
+        << indent << "with it: " << multiplierText(d.lateral->closed_loop) << " (largest "
+        << number(std::abs(d.lateral->closed_loop.front()), 4) << ").\n";
   if (o.own_gains) out << indent << "The gains are those of the case's own motion.\n";
   if (o.own_orbit)
     out << indent << "The reference at the set point is the case's own motion without commands;\n"
         << indent << "the table is moved with it.\n";
 }
 
-void wingbeat(std::ostream& out, const ControlOptions& o) {
+void wingbeat(std::ostream& out, const ControlOptions& o, bool lateral) {
   out << "guidance:\n  type: controller\n"
       << "  # Of the commands' filters [flaps]; the gains below belong to it.\n"
       << "  time_constant: " << number(o.time_constant, 8) << "\n  limits:\n";
   const auto used = [&](std::size_t i) {
-    for (std::size_t input : o.inputs)
-      if (input == i) return true;
-    return false;
+    const auto in = [i](const std::vector<std::size_t>& inputs) {
+      return std::find(inputs.begin(), inputs.end(), i) != inputs.end();
+    };
+    return in(o.inputs) || (lateral && in(o.lateral_inputs));
   };
   for (std::size_t i = 0; i < kCommands; ++i)
     out << "    " << kCommandTable[i].name << ": ["
@@ -90,13 +130,11 @@ void wingbeat(std::ostream& out, const ControlOptions& o) {
 std::string guidanceSection(const Case& c, const ControlDesign& d) {
   const ControllerSettings& s = d.settings;
   std::ostringstream out;
-  wingbeat(out, d.options);
+  wingbeat(out, d.options, s.lateral.has_value());
   out << "  controller:\n";
   provenance(out, c, d);
-  out << "    samples: " << s.samples << "\n    inputs: ";
-  for (std::size_t i = 0; i < s.inputs.size(); ++i)
-    out << (i > 0 ? ", " : "") << kCommandTable[s.inputs[i]].name;
-  out << "\n    # Of the filters that the gains belong to [flaps].\n    time_constant: "
+  out << "    samples: " << s.samples << "\n    inputs: " << namesOf(s.gains.inputs)
+      << "\n    # Of the filters that the gains belong to [flaps].\n    time_constant: "
       << number(s.time_constant, 8);
   std::vector<double> flaps, speeds, climbs;
   for (const SetPoint& point : s.set_points) {
@@ -113,12 +151,10 @@ std::string guidanceSection(const Case& c, const ControlDesign& d) {
       << "\n    # Rows: speed by speed, in each the climbs; of states the samples of a flap.\n"
       << "    table:\n      speeds: " << list(s.table.speeds(), 1.0)
       << "\n      climbs_deg: " << list(s.table.climbs(), kDegree) << '\n';
-  rows(out, "commands", s.table.commands());
-  rows(out, "states", s.table.states());
-  out << "    # Rows: sample by sample, in each the inputs.\n    gains:\n";
-  rows(out, "state", s.state_gain);
-  rows(out, "filter", s.filter_gain);
-  rows(out, "integral", s.integral_gain);
+  rows(out, "    ", "commands", s.table.commands());
+  rows(out, "    ", "states", s.table.states());
+  gainRows(out, s.gains, "    ");
+  if (s.lateral) lateralSection(out, *s.lateral);
   return out.str();
 }
 

@@ -24,8 +24,11 @@ void printDesign(std::ostream& out, const ControlDesign& design) {
     out << '\n';
   };
   out << "Floquet multipliers a flap (those above 0.01):\n";
-  line("uncontrolled", design.open_loop);
-  line("controlled  ", design.closed_loop);
+  line("uncontrolled         ", design.in_plane.open_loop);
+  line("controlled           ", design.in_plane.closed_loop);
+  if (!design.lateral) return;
+  line("lateral, uncontrolled", design.lateral->open_loop);
+  line("lateral, controlled  ", design.lateral->closed_loop);
 }
 
 void printControlled(std::ostream& out, const ControlDesign& design,
@@ -38,7 +41,14 @@ void printControlled(std::ostream& out, const ControlDesign& design,
                   flap.climb * kDegrees, flap.speed, flap.theta_B_mean * kDegrees,
                   flap.theta_B_low * kDegrees, flap.theta_B_high * kDegrees);
     out << line;
-    for (std::size_t input : design.settings.inputs) {
+    std::vector<std::size_t> inputs = design.settings.gains.inputs;
+    if (const auto& lateral = design.settings.lateral) {
+      inputs.insert(inputs.end(), lateral->gains.inputs.begin(), lateral->gains.inputs.end());
+      std::snprintf(line, sizeof line, "turn %.2f deg, roll %.2f to %.2f deg", flap.turn * kDegrees,
+                    flap.roll_low * kDegrees, flap.roll_high * kDegrees);
+      out << line;
+    }
+    for (std::size_t input : inputs) {
       const CommandInfo& info = kCommandTable[input];
       std::snprintf(line, sizeof line, "  %s %.4f to %.4f %s", info.name,
                     flap.command_low.*info.value, flap.command_high.*info.value, info.unit);

@@ -7,6 +7,7 @@
 
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/trim/trim.h"
+#include "trim/control_gains.h"
 #include "trim/control_scales.h"
 
 namespace monarch_flight {
@@ -86,7 +87,10 @@ class TableSearch {
     const auto before = trims_.find({2 * from_i - i, 2 * from_k - k});
     if (before == trims_.end()) return near;
     near.start += near.start - before->second.start;
-    for (std::size_t c : options_.inputs) {
+    std::vector<std::size_t> inputs = options_.inputs;
+    if (!near.symmetric)
+      inputs.insert(inputs.end(), options_.lateral_inputs.begin(), options_.lateral_inputs.end());
+    for (std::size_t c : inputs) {
       double& value = near.wingbeat.command.*kCommandTable[c].value;
       const double step = value - before->second.wingbeat.command.*kCommandTable[c].value;
       value = std::clamp(value + step, options_.limits[c].low, options_.limits[c].high);
@@ -101,6 +105,13 @@ class TableSearch {
   std::vector<double> speeds_, climbs_;
   Cell first_, centre_;
 };
+
+/// What both wings do alike.
+Eigen::VectorXd inPlane(const FlapState& x, int n) {
+  FlapState alike = x;
+  alike.segment<2>(4) = 0.5 * (x.segment<2>(4) + x.tail<2>());
+  return Eigen::VectorXd(alike).head(n);
+}
 
 /// The table of a controller; `moved`: the orbit that stands for the trim at the set point.
 TrimTable tableOf(const TableSearch& search, const ControlOptions& options, int n,
@@ -121,43 +132,11 @@ TrimTable tableOf(const TableSearch& search, const ControlOptions& options, int 
         const auto s = static_cast<std::size_t>(j);
         FlapState x = trim.orbit[s];
         if (moved) x += (*moved)[s] - search.centre().orbit[s];
-        for (Index k = 0; k < n; ++k) states(point * options.samples + j, k) = x(k);
+        states.row(point * options.samples + j) = inPlane(x, n).transpose();
       }
     }
   }
   return {search.speeds(), search.climbs(), commands, states};
-}
-
-/// Weights of the recursion, and the gains cut into the controller's parts.
-void setGains(ControlDesign& design, int n) {
-  const ControlOptions& options = design.options;
-  const auto m = static_cast<Index>(options.inputs.size());
-  const Index all = n + 3 * m + 2;
-  constexpr double kIntegralScale = 0.1;  // [m/s flaps]
-  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(all, all), R = Eigen::MatrixXd::Zero(m, m);
-  for (Index i = 0; i < n; ++i) Q(i, i) = options.state_weight / std::pow(trimScales()(i), 2);
-  for (Index i = all - 2; i < all; ++i)
-    Q(i, i) = options.integral_weight / (kIntegralScale * kIntegralScale);
-  for (Index i = 0; i < m; ++i)
-    R(i, i) = options.input_weight / std::pow(commandScale(options.inputs[std::size_t(i)]), 2);
-  const PeriodicLqr lqr = periodicLqr(design.stages, Q, R);
-  design.riccati_periods = lqr.periods;
-  design.open_loop = multipliers(design.stages, {});
-  design.closed_loop = multipliers(design.stages, lqr.gains);
-  if (!lqr.converged || !(std::abs(design.closed_loop.front()) < 1.0))
-    throw NumericalError(
-        "the recursion for the gains does not converge: these inputs cannot hold speed and climb; "
-        "choose others, as inputs:=amplitude,deviation_mean");
-  ControllerSettings& s = design.settings;
-  s.state_gain.resize(m * options.samples, n);
-  s.filter_gain.resize(m * options.samples, 3 * m);
-  s.integral_gain.resize(m * options.samples, 2);
-  for (int j = 0; j < options.samples; ++j) {
-    const Eigen::MatrixXd& K = lqr.gains[std::size_t(j)];
-    s.state_gain.middleRows(j * m, m) = K.leftCols(n);
-    s.filter_gain.middleRows(j * m, m) = K.middleCols(n, 3 * m);
-    s.integral_gain.middleRows(j * m, m) = K.rightCols(2);
-  }
 }
 
 std::vector<double> around(double middle, double step) {
@@ -170,8 +149,6 @@ void checkCase(const Case& c, const ControlOptions& options) {
   std::vector<std::string> faults;
   if (!c.free[kX] || !c.free[kZ] || !c.free[kPitch])
     faults.push_back("free: x, z and pitch must be true for a flight to be controlled; free them");
-  if (!c.mirrored)
-    faults.push_back("wings = independent: the design is longitudinal; set wings to mirrored");
   if (options.inputs.size() < 2)
     faults.push_back(
         "inputs: must be two commands or more to hold speed and climb; amplitude,deviation_mean "
@@ -187,8 +164,11 @@ ControlDesign designController(const Case& c, const ControlOptions& options, std
   const int n = controlStates(c);
   const SetPoint own = ownSetPoint(c);
   const double speed = options.speed.value_or(own.speed), climb = options.climb.value_or(own.climb);
+  const bool turns = c.free[kY] && c.free[kRoll] && c.free[kYaw];
   ControlTrim start;
   start.start = map.prescribedState(0);
+  if (options.guess) start = *options.guess;
+  start.symmetric = !turns || fliesStraight(map);
   log << "periodic flights by constant commands:\n  " << speed << " m/s at " << climb / kDegree
       << " deg, the set point: " << std::flush;
   const ControlTrim centre = findTrim(map, options, speed, climb, start);
@@ -199,18 +179,21 @@ ControlDesign designController(const Case& c, const ControlOptions& options, std
 
   ControlDesign design;
   design.options = options;
+  design.trim = centre;
   std::vector<FlapState> orbit = centre.orbit;
   if (options.own_orbit || options.own_gains)
     for (int j = 0; j < options.samples; ++j) orbit[std::size_t(j)] = map.prescribedState(j);
-  design.stages = options.own_gains ? linearise(map, options, orbit, {})
-                                    : linearise(map, options, centre.orbit, centre.wingbeat);
+  const std::vector<FlapState>& about = options.own_gains ? orbit : centre.orbit;
+  const WingbeatStart& wingbeat = options.own_gains ? WingbeatStart() : centre.wingbeat;
+  const auto space = inPlaneSpace(c, options.inputs);
+  design.in_plane = linearLaw(linearise(map, *space, about, wingbeat), *space, options);
   ControllerSettings& s = design.settings;
   s.samples = options.samples;
-  s.inputs = options.inputs;
+  s.gains = design.in_plane.gains;
   s.time_constant = options.time_constant;
   s.wing_pitch = c.free[kThetaR];
   s.table = tableOf(search, options, n, options.own_orbit ? &orbit : nullptr);
-  setGains(design, n);
+  if (turns) designLateral(design, map, centre, about, wingbeat);
   s.set_points = {{0.0, speed, climb}};
   s.slew = 0.1;
   s.lost_pitch = 75.0 * kDegree;

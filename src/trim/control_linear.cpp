@@ -1,7 +1,7 @@
 // The linear maps between samples.
 #include "monarch_flight/math/errors.h"
-#include "monarch_flight/trim/control_design.h"
 #include "monarch_flight/trim/trim.h"
+#include "trim/control_gains.h"
 #include "trim/control_scales.h"
 
 namespace monarch_flight {
@@ -12,57 +12,57 @@ using Eigen::VectorXd;
 
 constexpr double kPart = 0.1;  // of a scale: the differences
 
-/// State, filters and command as one vector, and the flight over a sample as a function of it.
+/// States, filters and commands of a space as one vector, and the flight over a sample as a
+/// function of it.
 class SampleFlight {
  public:
-  SampleFlight(const PhaseMap& map, const ControlOptions& options, int phase,
-               const FlapState& state, const WingbeatStart& wingbeat)
-      : map_(map), inputs_(options.inputs), phase_(phase), state_(state), wingbeat_(wingbeat) {
-    n_ = controlStates(map.baseCase());
-    m_ = static_cast<Index>(inputs_.size());
+  SampleFlight(const PhaseMap& map, const ControlSpace& space, int phase, const FlapState& state,
+               const WingbeatStart& wingbeat)
+      : map_(map), space_(space), phase_(phase), state_(state), wingbeat_(wingbeat) {
+    n_ = space.scales().size();
+    m_ = static_cast<Index>(space.inputs.size());
   }
-  Index states() const { return n_; }
   Index size() const { return n_ + 4 * m_; }
 
   VectorXd scales() const {
     VectorXd s(size());
-    s.head(n_) = VectorXd(trimScales()).head(n_);
+    s.head(n_) = space_.scales();
     const double rate = 1.0 / map_.timeConstant();
     for (Index i = 0; i < m_; ++i) {
-      const double scale = commandScale(inputs_[static_cast<std::size_t>(i)]);
+      const double scale = commandScale(space_.inputs[static_cast<std::size_t>(i)]);
       s.segment<3>(n_ + 3 * i) << scale, scale * rate, scale * rate * rate;
       s(n_ + 3 * m_ + i) = scale;
     }
     return s;
   }
 
-  /// States, filters, mean velocity at the end for a change of the start.
+  /// States, filters, means at the end for a change of the start.
   VectorXd end(const VectorXd& change) const {
-    const FlapState state = with(state_, VectorXd(state_).head(n_) + change.head(n_));
+    const VectorXd states = change.head(n_);
     WingbeatStart wingbeat = wingbeat_;
     for (Index i = 0; i < m_; ++i) {
-      const std::size_t k = inputs_[static_cast<std::size_t>(i)];
+      const std::size_t k = space_.inputs[static_cast<std::size_t>(i)];
       Coordinate& c = wingbeat.filters[k];
       c.q += change(n_ + 3 * i);
       c.qd += change(n_ + 3 * i + 1);
       c.qdd += change(n_ + 3 * i + 2);
       wingbeat.command.*kCommandTable[k].value += change(n_ + 3 * m_ + i);
     }
-    const PhaseFlight flight = map_.fly(phase_, state, wingbeat, 1);
+    const PhaseFlight flight = map_.fly(phase_, space_.changed(state_, states), wingbeat, 1);
     if (!flight.complete) throw NumericalError("a flight over a sample fails: " + flight.failure);
     VectorXd out(n_ + 3 * m_ + 2);
-    out.head(n_) = VectorXd(flight.states.back()).head(n_);
+    out.head(n_) = space_.end(flight, states);
     for (Index i = 0; i < m_; ++i) {
-      const Coordinate& c = flight.wingbeat.filters[inputs_[static_cast<std::size_t>(i)]];
+      const Coordinate& c = flight.wingbeat.filters[space_.inputs[static_cast<std::size_t>(i)]];
       out.segment<3>(n_ + 3 * i) << c.q, c.qd, c.qdd;
     }
-    out.tail<2>() = flight.velocity;
+    out.tail<2>() = space_.means(flight, states);
     return out;
   }
 
  private:
   const PhaseMap& map_;
-  const std::vector<std::size_t>& inputs_;
+  const ControlSpace& space_;
   int phase_;
   const FlapState& state_;
   const WingbeatStart& wingbeat_;
@@ -71,14 +71,13 @@ class SampleFlight {
 
 }  // namespace
 
-std::vector<LinearStage> linearise(const PhaseMap& map, const ControlOptions& options,
+std::vector<LinearStage> linearise(const PhaseMap& map, const ControlSpace& space,
                                    const std::vector<FlapState>& orbit,
                                    const WingbeatStart& wingbeat) {
   std::vector<LinearStage> stages;
-  const auto m = static_cast<Index>(options.inputs.size());
+  const auto m = static_cast<Index>(space.inputs.size());
   for (int phase = 0; phase < map.samples(); ++phase) {
-    const SampleFlight flight(map, options, phase, orbit[static_cast<std::size_t>(phase)],
-                              wingbeat);
+    const SampleFlight flight(map, space, phase, orbit[static_cast<std::size_t>(phase)], wingbeat);
     const Index own = flight.size() - m, all = own + 2;
     const VectorXd scales = flight.scales();
     Eigen::MatrixXd J(all, flight.size());
@@ -88,7 +87,7 @@ std::vector<LinearStage> linearise(const PhaseMap& map, const ControlOptions& op
       J.col(i) = (flight.end(change) - flight.end(-change)) / (2.0 * change(i));
     }
     LinearStage stage{Eigen::MatrixXd::Zero(all, all), Eigen::MatrixXd::Zero(all, m)};
-    J.bottomRows(2) /= map.samples();  // the integral over a sample [m/s flaps]
+    J.bottomRows(2) /= map.samples();  // the integral over a sample
     stage.A.leftCols(own) = J.leftCols(own);
     stage.A.bottomRightCorner(2, 2).setIdentity();
     stage.B = J.rightCols(m);

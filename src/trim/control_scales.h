@@ -10,9 +10,7 @@ namespace monarch_flight {
 double commandScale(std::size_t command);
 /// How many of a FlapState's components, from the first one, move freely.
 int controlStates(const Case& c);
-/// Those components, in units of trimScales().
-Eigen::VectorXd scaled(const FlapState& state, Eigen::Index n);
-/// The state with its first components from these, in their own units.
+/// The state with its first components from these, in their own units, and both wings alike.
 FlapState with(FlapState state, const Eigen::VectorXd& components);
 
 }  // namespace monarch_flight

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "monarch_flight/guidance/flight_controller.h"
+#include "monarch_flight/insect/heading.h"
 #include "monarch_flight/insect/start_motion.h"
+#include "trim/control_scales.h"
 #include "trim/led_flight.h"
 
 namespace monarch_flight {
@@ -49,6 +51,12 @@ class FlapSink : public StepSink {
     now_.theta_B_low = levels_ == 0 ? theta : std::min(now_.theta_B_low, theta);
     now_.theta_B_high = levels_ == 0 ? theta : std::max(now_.theta_B_high, theta);
     now_.theta_B_mean += theta;
+    const HeadingMotion body = headingMotion(step.interface.body);
+    now_.roll_low = levels_ == 0 ? body.roll.q : std::min(now_.roll_low, body.roll.q);
+    now_.roll_high = levels_ == 0 ? body.roll.q : std::max(now_.roll_high, body.roll.q);
+    now_.side_velocity += body.velocity.y();
+    now_.turn += std::remainder(body.yaw.q - heading_, 2.0 * M_PI);
+    heading_ = body.yaw.q;
     for (const CommandInfo& info : kCommandTable) {
       double &low = now_.command_low.*info.value, &high = now_.command_high.*info.value;
       low = levels_ == 0 ? c.*info.value : std::min(low, c.*info.value);
@@ -59,19 +67,33 @@ class FlapSink : public StepSink {
   }
   void finish(const CommittedStep& step, const Eigen::Vector3d& x) {
     const Eigen::Vector3d v = (x - begin_) / (step.t - t_begin_);
-    now_.speed = std::hypot(v.x(), v.z());
-    now_.climb = std::atan2(-v.z(), v.x());
+    now_.speed = v.norm();
+    now_.climb = std::atan2(-v.z(), v.y() == 0.0 ? v.x() : std::hypot(v.x(), v.y()));
     now_.theta_B_mean /= levels_;
+    now_.side_velocity /= levels_;
     flight_.flaps.push_back(now_);
   }
 
   ControlledFlight& flight_;
   ControlledFlap now_;
-  double flap_ = 0.0, t_begin_ = 0.0;
+  double flap_ = 0.0, t_begin_ = 0.0, heading_ = 0.0;
   Eigen::Vector3d begin_;
   int levels_ = 0;
   unsigned clipped_ = 0;
 };
+
+/// The state with what the lateral law's flight straight on adds.
+FlapState aside(FlapState s, const Eigen::VectorXd& lateral) {
+  s(6) += lateral(0);
+  s(7) += lateral(1);
+  s(8) += lateral(2);
+  s(9) += lateral(4);
+  for (Eigen::Index i = 5; i < lateral.size(); ++i) {
+    s(i - 1) += lateral(i);
+    s(i + 5) -= lateral(i);
+  }
+  return s;
+}
 
 }  // namespace
 
@@ -83,25 +105,22 @@ ControlledFlight flyControlled(const Case& given, const WingbeatSettings& wingbe
   c.coupling.accelerations_known = false;
   c.time.steps = static_cast<std::uint32_t>(std::lround(start.flaps * c.time.stepsPerFlap()));
   TrimReference reference;
-  reference.commands.setZero(static_cast<Eigen::Index>(controller.inputs.size()));
+  reference.commands.setZero(static_cast<Eigen::Index>(controller.gains.inputs.size()));
   reference.state.setZero(controller.states());
   reference.next = reference.state;
   const int phase = static_cast<int>(
       std::lround(controller.samples * (c.time.t_start / c.time.period)) % controller.samples);
   controller.table.at(controller.set_points.front().velocity(), phase, reference);
-  FlapState s = start.change;
-  for (Eigen::Index i = 0; i < reference.state.size(); ++i) s(i) += reference.state(i);
-  StartValues values;
-  values.x = StartValue{0.0, s(0), 0.0};
-  values.z = StartValue{0.0, s(1), 0.0};
-  values.pitch = StartValue{s(2), s(3), 0.0};
-  if (c.free[kThetaR]) values.theta_R = StartValue{s(4), s(5), 0.0};
-  c.motion = std::make_shared<StartMotion>(c.motion, values, c.time.t_start);
+  FlapState s = with(FlapState::Zero(), reference.state);
+  if (controller.lateral) s = aside(s, controller.lateral->states.row(phase));
+  s += start.change;
+  c.motion = std::make_shared<StartMotion>(
+      c.motion, startOf(c.free, Eigen::Vector3d::Zero(), s, FlapState::Zero()), c.time.t_start);
   std::unique_ptr<CommandSource> source;
   if (start.uncontrolled) {
     WingbeatChange trim;
-    for (std::size_t i = 0; i < controller.inputs.size(); ++i)
-      trim.*kCommandTable[controller.inputs[i]].value =
+    for (std::size_t i = 0; i < controller.gains.inputs.size(); ++i)
+      trim.*kCommandTable[controller.gains.inputs[i]].value =
           reference.commands(static_cast<Eigen::Index>(i));
     source = std::make_unique<Constant>(trim);
   } else {

@@ -26,6 +26,26 @@ Case changedCase(const Case& base, const std::vector<TrimParameter>& parameters,
   return caseFromText(edit.text(), base.name + " with changed parameters", {}, config_dir);
 }
 
+/// Whether both sides do the same and the body only pitches.
+bool inPlane(const FlapState& s) {
+  return s.segment<4>(kInPlaneStates).isZero(0.0) && s.tail<2>() == s.segment<2>(4);
+}
+
+/// An explicit start, for a state that no flight in the plane of symmetry passes through.
+void setInitial(CaseEdit& edit, const FreeCoordinates& free, const FlapState& s) {
+  edit.setVector({"initial", "velocity"}, {s(0), s(6), s(1)});
+  const std::pair<const char*, FreeCoordinate> angles[] = {
+      {"theta_B", kPitch}, {"theta_R", kThetaR}, {"roll", kRoll}, {"theta_L", kThetaL}};
+  const int places[] = {2, 4, 7, 10};
+  for (int i = 0; i < 4; ++i) {
+    const auto& [name, coordinate] = angles[i];
+    if (!free[coordinate]) continue;
+    edit.set({"initial", name}, s(places[i]));
+    edit.set({"initial", std::string(name) + "_dot"}, s(places[i] + 1));
+  }
+  if (free[kYaw]) edit.set({"initial", "yaw_dot"}, s(9));
+}
+
 }  // namespace
 
 const std::vector<TrimParameter>& trimParameters() {
@@ -60,16 +80,22 @@ FlapMap::FlapMap(const Case& c, const std::string& config_dir,
         "free: nothing is free, so there is nothing to trim; free x, z, pitch or "
         "wing_pitch");
   }
-  if (!c.mirrored)
-    faults.push_back("wings = independent: the trim is longitudinal; set wings to mirrored");
+  const bool sideways = c.free[kY] || c.free[kRoll] || c.free[kYaw] || c.free[kThetaL];
+  if (sideways && run_in > 0) {
+    faults.push_back(
+        "run_in = " + std::to_string(run_in) +
+        ": must be 0 for independent wings, the run-in flies in the plane of symmetry; "
+        "give run_in:=0 and fluid:=quasi_steady, or wings:=mirrored");
+  }
   if (run_in < 0) {
     faults.push_back("run_in = " + std::to_string(run_in) + ": must be >= 0 flaps; 1 is usual");
   }
   if (!faults.empty()) throw InputError(faults);
   per_flap_ = static_cast<std::uint32_t>(steps);
-  const bool is_free[6] = {c.free[kX],     c.free[kZ],      c.free[kPitch],
-                           c.free[kPitch], c.free[kThetaR], c.free[kThetaR]};
-  for (int i = 0; i < 6; ++i) {
+  const bool is_free[kFlapStates] = {
+      c.free[kX], c.free[kZ],    c.free[kPitch], c.free[kPitch], c.free[kThetaR], c.free[kThetaR],
+      c.free[kY], c.free[kRoll], c.free[kRoll],  c.free[kYaw],   c.free[kThetaL], c.free[kThetaL]};
+  for (int i = 0; i < kFlapStates; ++i) {
     if (is_free[i]) active_.push_back(i);
   }
 }
@@ -77,8 +103,7 @@ FlapMap::FlapMap(const Case& c, const std::string& config_dir,
 TrimPoint FlapMap::start() const {
   const PrescribedState s = base_.motion->at(base_.time.t_start);
   TrimPoint point;
-  point.state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd,
-      s.angles.wings.right.theta.q, s.angles.wings.right.theta.qd;
+  point.state = flapState(s.interface());
   point.parameters.resize(static_cast<Eigen::Index>(parameters_.size()));
   const CaseEdit edit(base_.resolved_yaml);
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -98,14 +123,9 @@ TrimPoint FlapMap::start() const {
 
 Case FlapMap::withStart(const TrimPoint& point, const FlapState& a) const {
   Case c = changedCase(base_, parameters_, point, config_dir_);
-  const PrescribedState now = c.motion->at(c.time.t_start);
-  const FlapState& s = point.state;
-  StartValues start;
-  if (c.free[kX]) start.x = StartValue{now.body.x.x(), s(0), a(0)};
-  if (c.free[kZ]) start.z = StartValue{now.body.x.z(), s(1), a(1)};
-  if (c.free[kPitch]) start.pitch = StartValue{s(2), s(3), a(3)};
-  if (c.free[kThetaR]) start.theta_R = StartValue{s(4), s(5), a(5)};
-  c.motion = std::make_shared<StartMotion>(c.motion, start, c.time.t_start);
+  const Eigen::Vector3d place = c.motion->at(c.time.t_start).body.x;
+  c.motion = std::make_shared<StartMotion>(c.motion, startOf(c.free, place, point.state, a),
+                                           c.time.t_start);
   c.coupling.prescribed_steps = 0;
   c.coupling.accelerations_known = true;
   return c;
@@ -165,7 +185,12 @@ std::string FlapMap::caseText(const TrimPoint& point, int run_in_steps, int flap
     edit.setSeries({"motion", "theta_R_deg"}, through(point.shape.theta_R, f, t0, s(4), s(5)),
                    kDegrees);
   }
-  edit.remove({"initial"});
+  if (inPlane(s)) {
+    edit.remove({"initial"});
+  } else {
+    setInitial(edit, base_.free, s);
+    run_in_steps = 0;
+  }
   edit.set({"coupling", "prescribed_steps"}, run_in_steps);
   edit.set({"time", "flaps"}, flaps + run_in_steps / static_cast<double>(per_flap_));
   return edit.text();

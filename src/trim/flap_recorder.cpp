@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "monarch_flight/insect/heading.h"
 #include "monarch_flight/math/seconds_since.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/trim/periodic_shape.h"
@@ -24,21 +25,21 @@ FlapRecorder::FlapRecorder(const TimeGrid& time, std::uint32_t run_in_steps, int
 
 void FlapRecorder::onStep(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
-  const Coordinate& wing = step.interface.theta.right;
-  FlapState s, a;
-  s << body.v.x(), body.v.z(), body.pitch.q, body.pitch.qd, wing.q, wing.qd;
-  a << body.a.x(), body.a.z(), body.pitch.qd, body.pitch.qdd, wing.qd, wing.qdd;
-  states_.push_back(s);
-  accelerations_.push_back(a);
+  states_.push_back(flapState(step.interface));
+  accelerations_.push_back(flapRates(step.interface));
+  sideways_.push_back(body.x.y());
+  heading_.push_back(headingMotion(body).yaw.q);
   q_[0].push_back(body.x.x());
   q_[1].push_back(body.x.z());
   q_[2].push_back(body.pitch.q);
-  q_[3].push_back(wing.q);
+  q_[3].push_back(step.interface.theta.right.q);
 }
 
 void FlapRecorder::onReset() {
   states_.clear();
   accelerations_.clear();
+  sideways_.clear();
+  heading_.clear();
   for (std::vector<double>& samples : q_) samples.clear();
 }
 
@@ -47,9 +48,12 @@ Flap FlapRecorder::flap(std::size_t first, std::size_t last) const {
   f.start = states_[first];
   f.end = states_[last];
   const double vx = (q_[0][last] - q_[0][first]) / time_.period;
+  const double vy = (sideways_[last] - sideways_[first]) / time_.period;
   const double vz = (q_[1][last] - q_[1][first]) / time_.period;
-  f.speed = std::hypot(vx, vz);
-  f.climb = std::atan2(-vz, vx);
+  f.speed = std::hypot(vx, vy, vz);
+  f.climb = std::atan2(-vz, vy == 0.0 ? vx : std::hypot(vx, vy));
+  for (std::size_t k = first; k < last; ++k)
+    f.turn += std::remainder(heading_[k + 1] - heading_[k], 2.0 * M_PI);
   f.theta_B_swing = swing(q_[2], first, last);
   f.theta_R_swing = swing(q_[3], first, last);
   std::array<std::vector<double>, 4> samples;

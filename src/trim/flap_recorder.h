@@ -25,7 +25,8 @@ class FlapRecorder : public StepSink {
   std::size_t run_in_;
   int harmonics_;
   std::vector<FlapState> states_, accelerations_;
-  std::array<std::vector<double>, 4> q_;  // x, z, theta_B, theta_R
+  std::array<std::vector<double>, 4> q_;    // x, z, theta_B, theta_R
+  std::vector<double> sideways_, heading_;  // y, yaw
 };
 
 /// Series of one flap's samples of x, z, theta_B, theta_R (both ends included).

@@ -71,7 +71,7 @@ VectorXd boundedLeastSquares(const MatrixXd& A, const VectorXd& a, double dampin
       M.col(k).head(A.rows()) = A.col(open[static_cast<std::size_t>(k)]);
       M(A.rows() + k, k) = std::sqrt(damping);
     }
-    const VectorXd solution = M.colPivHouseholderQr().solve(rhs);
+    const VectorXd solution = M.completeOrthogonalDecomposition().solve(rhs);  // the smallest one
     bool changed = false;
     for (Index k = 0; k < count; ++k) {
       const Index i = open[static_cast<std::size_t>(k)];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "monarch_flight/insect/heading.h"
 #include "monarch_flight/insect/start_motion.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/federation.h"
@@ -60,8 +61,9 @@ class StartedWingbeat : public Guidance {
  private:
   static WingbeatSettings settings(const Case& c, double time_constant) {
     WingbeatSettings s;
-    s.limits.fill({0.0, 0.0, kUnlimited});
-    for (std::size_t i = 0; i < kAlikeCommands; ++i) s.limits[i] = {-0.999, kUnlimited, kUnlimited};
+    s.limits.fill({-kUnlimited, kUnlimited, kUnlimited});
+    s.limits[kFrequencyCommand].low = s.limits[kAmplitudeCommand].low = -0.5;
+    s.limits[kDifferentialAmplitude] = {-0.49, 0.49, kUnlimited};  // both wings beat
     s.time_constant = time_constant;
     s.frequency = 1.0 / c.time.period;
     s.dt = c.time.dt;
@@ -77,13 +79,10 @@ class LevelRecorder : public StepSink {
  public:
   void onStep(const CommittedStep& step) override {
     const BodyState& body = step.interface.body;
-    const Coordinate& wing = step.interface.theta.right;
-    FlapState s, a;
-    s << body.v.x(), body.v.z(), body.pitch.q, body.pitch.qd, wing.q, wing.qd;
-    a << body.a.x(), body.a.z(), body.pitch.qd, body.pitch.qdd, wing.qd, wing.qdd;
-    states.push_back(s);
-    rates.push_back(a);
+    states.push_back(flapState(step.interface));
+    rates.push_back(flapRates(step.interface));
     places.emplace_back(body.x.x(), body.x.z());
+    headings.push_back(headingMotion(body).yaw.q);
     times.push_back(step.t);
     phases.push_back(step.guidance.phase);
   }
@@ -91,9 +90,12 @@ class LevelRecorder : public StepSink {
   void onEnd(const std::string&) override {}
   /// Between two levels by Hermite's cubic; returns the time since the start.
   double at(double phase, FlapState& s, FlapState& a, Eigen::Vector2d& place) const;
+  /// Heading against that of the start at a time since then, and its and the side velocity's means.
+  SideMotion sideways(double elapsed) const;
 
   std::vector<FlapState> states, rates;
   std::vector<Eigen::Vector2d> places;
+  std::vector<double> headings;
   std::vector<double> times, phases;
 };
 
@@ -109,6 +111,25 @@ double LevelRecorder::at(double phase, FlapState& s, FlapState& a, Eigen::Vector
   const auto v = [&](std::size_t i) { return Eigen::Vector2d(states[i].head<2>()); };
   place = h0 * places[k] + h1 * places[k + 1] + g0 * v(k) + g1 * v(k + 1);
   return times[k] + p * dt - times.front();
+}
+
+SideMotion LevelRecorder::sideways(double elapsed) const {
+  SideMotion m;
+  double heading = 0.0, side = states[0](6), t = 0.0;
+  for (std::size_t k = 0; k + 1 < times.size() && t < elapsed; ++k) {
+    const double dt = times[k + 1] - times[k], part = std::min(1.0, (elapsed - t) / dt);
+    const double turned = part * std::remainder(headings[k + 1] - headings[k], 2.0 * M_PI);
+    const double next = side + part * (states[k + 1](6) - side);
+    m.mean_heading += part * dt * (heading + 0.5 * turned);
+    m.mean_velocity += part * dt * 0.5 * (side + next);
+    heading += turned;
+    side = next;
+    t += part * dt;
+  }
+  m.turn = heading;
+  m.mean_heading /= elapsed;
+  m.mean_velocity /= elapsed;
+  return m;
 }
 
 }  // namespace
@@ -134,11 +155,7 @@ PhaseMap::PhaseMap(const Case& c, int samples, double time_constant)
 }
 
 FlapState PhaseMap::prescribedState(int phase) const {
-  const PrescribedState s = case_.motion->at(timeOf(phase));
-  FlapState state;
-  state << s.body.v.x(), s.body.v.z(), s.body.pitch.q, s.body.pitch.qd,
-      s.angles.wings.right.theta.q, s.angles.wings.right.theta.qd;
-  return state;
+  return flapState(case_.motion->at(timeOf(phase)).interface());
 }
 
 PhaseFlight PhaseMap::fly(int phase, const FlapState& s, const WingbeatStart& wingbeat,
@@ -164,8 +181,10 @@ PhaseFlight PhaseMap::fly(int phase, const FlapState& s, const WingbeatStart& wi
         levels.at(levels.phases.front() + static_cast<double>(k) / samples_, state, rate, place);
     flight.states.push_back(state);
     flight.rates.push_back(rate);
+    flight.headings.push_back(k == 0 ? 0.0 : levels.sideways(elapsed).turn);
   }
   flight.velocity = (place - levels.places.front()) / elapsed;
+  flight.sideways = levels.sideways(elapsed);
   flight.wingbeat = wingbeat;
   Preset preset(wingbeat);
   for (std::size_t i = 0; i < kCommands; ++i) {
@@ -184,12 +203,8 @@ RunResult PhaseMap::flyFrom(int phase, const FlapState& s, const WingbeatStart& 
   c.time.t_start = timeOf(phase);
   c.time.steps = steps;
   const FlapState a = rates ? *rates : FlapState::Zero();
-  StartValues start;
-  if (c.free[kX]) start.x = StartValue{0.0, s(0), a(0)};
-  if (c.free[kZ]) start.z = StartValue{0.0, s(1), a(1)};
-  if (c.free[kPitch]) start.pitch = StartValue{s(2), s(3), a(3)};
-  if (c.free[kThetaR]) start.theta_R = StartValue{s(4), s(5), a(5)};
-  c.motion = std::make_shared<StartMotion>(case_.motion, start, c.time.t_start);
+  c.motion = std::make_shared<StartMotion>(
+      case_.motion, startOf(c.free, Eigen::Vector3d::Zero(), s, a), c.time.t_start);
   c.coupling.accelerations_known = rates != nullptr;
   return flyLed(c, std::make_unique<StartedWingbeat>(c, time_constant_, wingbeat), {&sink});
 }

@@ -93,6 +93,8 @@ void printTrim(std::ostream& out, const FlapMap& map, const TrimOptions& options
       << number(flap.theta_B_mean * kDegrees, 4) << ", swing "
       << number(flap.theta_B_swing * kDegrees, 4) << " deg\n  wing pitch      swing "
       << number(flap.theta_R_swing * kDegrees, 4) << " deg\n";
+  if (map.baseCase().free[kYaw])
+    out << "  turn            " << number(flap.turn * kDegrees, 4) << " deg a flap\n";
   printModes(out, map, result);
 }
 

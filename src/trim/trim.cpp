@@ -150,12 +150,6 @@ const char* TrimTarget::name(Kind kind) {
   return kNames[kind];
 }
 
-FlapState trimScales() {
-  FlapState scales;
-  scales << 0.1, 0.1, 0.1, 5.0, 0.1, 10.0;
-  return scales;
-}
-
 std::vector<FloquetMode> floquet(const Eigen::MatrixXd& periodicity_jacobian) {
   const Index n = periodicity_jacobian.rows();
   const Eigen::MatrixXd monodromy =

@@ -18,16 +18,16 @@ constexpr std::size_t kAmplitude = 0, kDeviation = 3;
 ControllerSettings simple(int N = 4) {
   ControllerSettings s;
   s.samples = N;
-  s.inputs = {kAmplitude, kDeviation};
+  s.gains.inputs = {kAmplitude, kDeviation};
   s.time_constant = 0.1;
   s.wing_pitch = false;
   Eigen::MatrixXd commands(1, 2), states(N, 4);
   commands << 0.01, 0.02;
   for (int j = 0; j < N; ++j) states.row(j) << 1.0, 0.0, 0.1 * j, 0.0;
   s.table = {{1.0}, {0.0}, commands, states};
-  s.state_gain = Eigen::MatrixXd::Zero(2 * N, 4);
-  s.filter_gain = Eigen::MatrixXd::Zero(2 * N, 6);
-  s.integral_gain = Eigen::MatrixXd::Zero(2 * N, 2);
+  s.gains.state = Eigen::MatrixXd::Zero(2 * N, 4);
+  s.gains.filter = Eigen::MatrixXd::Zero(2 * N, 6);
+  s.gains.integral = Eigen::MatrixXd::Zero(2 * N, 2);
   s.set_points = {{0.0, 1.0, 0.0}};
   s.slew = 0.1;
   s.lost_pitch = 1.0;
@@ -69,8 +69,8 @@ TEST(FlightController, SamplesOnThePhaseAndNotInBetween) {
 TEST(FlightController, CommandsTheLaw) {
   ControllerSettings s = simple();
   for (int j = 0; j < 4; ++j) {
-    s.state_gain.row(2 * j) << 0.3, 0.5, 0.7 + j, 0.11;
-    s.filter_gain.row(2 * j + 1) << 0.0, 0.0, 0.0, 2.0, 3.0, 5.0;
+    s.gains.state.row(2 * j) << 0.3, 0.5, 0.7 + j, 0.11;
+    s.gains.filter.row(2 * j + 1) << 0.0, 0.0, 0.0, 2.0, 3.0, 5.0;
   }
   Ride ride(s);
   ride.input.interface.body.v = {1.2, 0.0, 0.4};
@@ -88,7 +88,7 @@ TEST(FlightController, CommandsTheLaw) {
 
 TEST(FlightController, FirstStepsArePrescribed) {
   ControllerSettings s = simple();
-  s.state_gain.setOnes();
+  s.gains.state.setOnes();
   s.first_step = 3;
   Ride ride(s);
   ride.input.interface.body.pitch.q = 0.5;
@@ -104,7 +104,7 @@ TEST(FlightController, FirstStepsArePrescribed) {
 
 TEST(FlightController, IntegratesTheMeanOfTheFlap) {
   ControllerSettings s = simple(1);  // one sample a flap
-  s.integral_gain << 0.5, 0.0, 0.0, 0.25;
+  s.gains.integral << 0.5, 0.0, 0.0, 0.25;
   Ride ride(s);
   constexpr int kLevels = 100;
   for (int flap = 0; flap < 3; ++flap)
@@ -124,7 +124,7 @@ TEST(FlightController, IntegratesTheMeanOfTheFlap) {
 
 TEST(FlightController, IntegralStopsWhereAnInputIsLimited) {
   ControllerSettings s = simple();
-  for (int j = 0; j < 4; ++j) s.integral_gain(2 * j, 0) = 1.0;
+  for (int j = 0; j < 4; ++j) s.gains.integral(2 * j, 0) = 1.0;
   Ride ride(s);
   ride.limit = 0.1;
   ride.input.interface.body.v.x() = 0.0;  // too slow by 1 m/s: the amplitude is driven up
@@ -140,7 +140,7 @@ TEST(FlightController, IntegralStopsWhereAnInputIsLimited) {
 
 TEST(FlightController, LostWhenThePitchIsTooFarOff) {
   ControllerSettings s = simple();
-  s.state_gain.setOnes();
+  s.gains.state.setOnes();
   Ride ride(s);
   ride.ask(0.0);
   ride.input.interface.body.pitch.q = 1.05;  // 0.95 off
@@ -159,7 +159,7 @@ TEST(FlightController, LostWhenThePitchIsTooFarOff) {
 
 TEST(FlightController, LostWhenNotFinite) {
   ControllerSettings s = simple();
-  s.state_gain.setOnes();
+  s.gains.state.setOnes();
   Ride ride(s);
   ride.ask(0.0);
   ride.input.interface.body.pitch.qd = std::numeric_limits<double>::quiet_NaN();
@@ -170,7 +170,7 @@ TEST(FlightController, LostWhenNotFinite) {
 
 TEST(FlightController, LostWhenLimitedForTooLong) {
   ControllerSettings s = simple();
-  for (int j = 0; j < 4; ++j) s.state_gain(2 * j, 0) = 1.0;
+  for (int j = 0; j < 4; ++j) s.gains.state(2 * j, 0) = 1.0;
   Ride ride(s);
   ride.limit = 0.1;
   ride.input.interface.body.v.x() = 0.0;
@@ -197,9 +197,9 @@ TEST(FlightController, SetPointMovesAtTheSlewAndLessTheWind) {
 
 TEST(FlightController, MemoryIsBitExact) {
   ControllerSettings s = simple(3);
-  s.state_gain.setConstant(0.013);
-  s.filter_gain.setConstant(0.017);
-  s.integral_gain.setConstant(0.019);
+  s.gains.state.setConstant(0.013);
+  s.gains.filter.setConstant(0.017);
+  s.gains.integral.setConstant(0.019);
   s.set_points = {{0.0, 1.0, 0.0}, {2.0, 1.4, 0.2}};
   Ride first(s), second(s);
   first.limit = second.limit = 0.05;
@@ -249,9 +249,9 @@ TEST(TrimTable, IsBilinearAndEndsAtItsEdges) {
 TEST(ControllerSettings, EveryFaultIsNamed) {
   ControllerSettings s = simple();
   EXPECT_TRUE(s.problems().empty());
-  s.inputs = {kAmplitude, kAmplitude};
-  s.state_gain.resize(3, 4);
-  s.filter_gain(0, 0) = std::nan("");
+  s.gains.inputs = {kAmplitude, kAmplitude};
+  s.gains.state.resize(3, 4);
+  s.gains.filter(0, 0) = std::nan("");
   s.set_points = {{0.0, -1.0, 0.0}, {0.0, 1.0, 2.0}};
   s.slew = 0.0;
   s.lost_pitch = -1.0;

@@ -2,22 +2,25 @@
 #include <Eigen/Dense>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "monarch_flight/guidance/feedback_law.h"
 #include "monarch_flight/insect/wingbeat.h"
 
 namespace monarch_flight {
 
-/// What both wings do alike: the first commands of kCommandTable, the inputs that the law can have.
+/// What both wings do alike: the first commands of kCommandTable, inputs of the law in the plane of
+/// symmetry; the others are those of the lateral law.
 inline constexpr std::size_t kAlikeCommands = kDifferentialAmplitude;
 
-/// What a controller feeds back: velocity x, z (NED) relative to the air [m/s], theta_B [rad],
-/// theta_B' [rad/s] and, where the wing pitches passively, theta_R [rad], theta_R' [rad/s].
+/// What a controller feeds back in the plane of symmetry: velocity forward in the horizontal and
+/// down, relative to the air [m/s], theta_B [rad], theta_B' [rad/s] and, where the wing pitches
+/// passively, theta_R [rad], theta_R' [rad/s].
 inline constexpr int kControlStates = 6;
 using ControlState = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kControlStates, 1>;
-/// One number for each command that a controller uses.
-using ControlInput = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, int(kCommands), 1>;
+inline constexpr int kLateralStates = 7;  ///< LateralState
 
 /// A point of the trim table as a controller uses it at one phase.
 struct TrimReference {
@@ -57,27 +60,39 @@ struct SetPoint {
   double flap = 0.0;                 ///< on the phase clock
   double speed = 0.0;                ///< [m/s]
   double climb = 0.0;                ///< up from the horizontal [rad]
+  /// Whole turns included [rad]; nothing: as before, at first that of the start.
+  std::optional<double> heading = std::nullopt;
   Eigen::Vector2d velocity() const;  ///< x and z of NED [m/s]
+};
+
+/// Holds the heading of a flight with independent wings.
+struct LateralSettings {
+  FeedbackGains gains;  ///< integrals: of heading [rad flaps], of side velocity [m/s flaps]
+  double turn = 0.0;    ///< of the heading at most [rad a flap]
+  Eigen::VectorXd turn_commands;  ///< of a turn without side-slip, per rad a flap
+  Eigen::MatrixXd turn_states;    ///< its states at every sample, a row each, per rad a flap
+  /// The same of the flight straight on; all zero where both sides are alike.
+  Eigen::VectorXd commands;
+  Eigen::MatrixXd states;
 };
 
 /// A law for one insect, its motion and its filters (docs/guidance.md).
 struct ControllerSettings {
   int samples = 0;                  ///< N of the law a flap
-  std::vector<std::size_t> inputs;  ///< commands used, indices of kCommandTable
   double time_constant = 0.0;       ///< of the commands' filters that the gains belong to [flaps]
   bool wing_pitch = true;           ///< theta_R and its rate are fed back
   TrimTable table;
-  /// Rows input + inputs.size() * phase: command for a deviation of the states, of the filters
-  /// (value, rate, acceleration of each input in turn) and of the integrals (x, z: [m/s flaps]).
-  Eigen::MatrixXd state_gain, filter_gain, integral_gain;
+  FeedbackGains gains;  ///< integrals: of the velocity forward and down [m/s flaps]
+  std::optional<LateralSettings> lateral;  ///< nothing: heading, roll and side-slip are left alone
   std::vector<SetPoint> set_points;  ///< by flap; the first one holds from the start
   double slew = 0.0;                 ///< of the set point [m/s a flap]
-  /// Lost: body pitch is further off its reference than this [rad], or an input has been limited
-  /// for so many flaps on end.
+  /// Lost: body pitch (or roll, with a lateral law) is further off its reference than this [rad],
+  /// or an input has been limited for so many flaps on end.
   double lost_pitch = 0.0, lost_flaps = 0.0;
   std::uint32_t first_step = 0;  ///< until this level the flight is prescribed: trimmed commands
 
   int states() const { return wing_pitch ? 6 : 4; }
+  int lateralStates() const { return wing_pitch ? kLateralStates : kLateralStates - 2; }
   /// Every fault at once, "guidance/controller/<key> ...: must be ...".
   std::vector<std::string> problems() const;
 };

@@ -1,6 +1,8 @@
 #pragma once
 #include "monarch_flight/guidance/command_source.h"
 #include "monarch_flight/guidance/controller_settings.h"
+#include "monarch_flight/guidance/feedback_law.h"
+#include "monarch_flight/guidance/lateral_control.h"
 
 namespace monarch_flight {
 
@@ -11,6 +13,8 @@ namespace monarch_flight {
 /// the set point over ground less the wind's mean over a flap, moved at most at the slew.
 ///  - z stops where an input has been limited and would be driven further (anti-windup).
 ///  - During the prescribed start: u_trim(r).
+///  - Velocities are those forward in the horizontal and down. With independent wings a lateral law
+///    (LateralControl) holds the heading of the set point with commands of its own.
 ///  - Lost (pitch too far off, not finite, too long limited): u_trim(r) from then on, for good.
 /// No allocation behind the constructor.
 class FlightController : public CommandSource {
@@ -22,22 +26,23 @@ class FlightController : public CommandSource {
   bool lost() const override { return lost_; }
   void memory(StateVisitor& state) override;
 
-  /// The set point through the air that is being followed, x and z of NED [m/s].
+  /// The set point through the air that is being followed, forward and down [m/s].
   const Eigen::Vector2d& reference() const { return reference_velocity_; }
-  const Eigen::Vector2d& integral() const { return integral_; }  ///< z [m/s flaps]
+  const Eigen::Vector2d& integral() const { return law_.integral(); }  ///< z [m/s flaps]
+  const LateralControl* lateral() const { return lateral_ ? &*lateral_ : nullptr; }
 
  private:
-  struct Air {  // x and z of NED [m/s]
-    Eigen::Vector2d velocity, wind;
+  struct Air {
+    Eigen::Vector2d velocity, wind;  // forward in the horizontal and down [m/s]
+    double side_velocity;            // to the right [m/s]
   };
-  Air air(const GuidanceInput& level) const;
-  void average(const Air& now);
+  static Air air(const GuidanceInput& level, const HeadingMotion& body);
+  void average(const HeadingMotion& body, const Air& now);
   void sample(const WingbeatLevel& level, const Air& now, double index);
   void moveReference(double flap, double flaps);
-  void integrate(int phase);
   void feedBack(const WingbeatLevel& level, const Air& now, int phase);
   bool limited(const WingbeatChange& taken);
-  WingbeatChange change() const;
+  std::optional<double> heading(double flap) const;
 
   ControllerSettings settings_;
   bool begun_;                               // there has been a sample
@@ -48,9 +53,8 @@ class FlightController : public CommandSource {
   Eigen::Vector2d wind_mean_;                // over about a flap
   Eigen::Vector2d reference_velocity_;       // r
   Eigen::Vector2d orbit_velocity_;           // that the periodic flight has from the last sample on
-  Eigen::Vector2d integral_;
-  ControlInput asked_;    // at the last sample
-  ControlInput excess_;   // of it over what was taken
+  FeedbackLaw law_;
+  std::optional<LateralControl> lateral_;
   double limited_flaps_;  // on end
   bool lost_;
   TrimReference now_;  // of the sample; a function of the above

@@ -24,6 +24,7 @@ BodyState withAngles(BodyState body, const Coordinate& roll, const Coordinate& p
 /// Which coordinates start explicitly; the others follow the motion below.
 struct StartValues {
   std::optional<StartValue> x, y, z, roll, pitch, yaw, theta_R;
+  std::optional<StartValue> theta_L;  ///< nothing: as theta_R
 };
 
 /// A motion in which some coordinates leave from explicit initial values at a

@@ -23,6 +23,9 @@ struct ControlledStart {
 struct ControlledFlap {
   double speed = 0.0, climb = 0.0;  ///< of the mean velocity over ground [m/s], [rad]
   double theta_B_mean = 0.0, theta_B_low = 0.0, theta_B_high = 0.0;  ///< [rad]
+  double turn = 0.0;                       ///< change of the heading [rad]
+  double side_velocity = 0.0;              ///< mean, to the right of the heading, over ground [m/s]
+  double roll_low = 0.0, roll_high = 0.0;  ///< [rad]
   WingbeatChange command_low, command_high;                          ///< taken
   bool limited = false;                                              ///< a command was cut in it
 };

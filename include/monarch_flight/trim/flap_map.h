@@ -6,15 +6,9 @@
 
 #include "monarch_flight/insect/fourier_motion.h"
 #include "monarch_flight/run/case.h"
+#include "monarch_flight/trim/flap_state.h"
 
 namespace monarch_flight {
-
-/// What the equations of motion move, positions apart, at the start of a flap:
-/// u, w [m/s, NED]; theta_B [rad], its rate [rad/s]; theta_R [rad], its rate [rad/s].
-using FlapState = Eigen::Matrix<double, 6, 1>;
-inline constexpr const char* kStateNames[6] = {"u",           "w",       "theta_B",
-                                               "theta_B_dot", "theta_R", "theta_R_dot"};
-inline constexpr const char* kStateUnits[6] = {"m/s", "m/s", "rad", "rad/s", "rad", "rad/s"};
 
 /// A number of the case file that the trim may change.
 struct TrimParameter {
@@ -46,6 +40,7 @@ struct Flap {
   FlapState start = FlapState::Zero(), end = FlapState::Zero();
   double speed = 0.0;         ///< of the mean velocity [m/s]
   double climb = 0.0;         ///< of the mean velocity, up from the horizontal [rad]
+  double turn = 0.0;          ///< change of the heading [rad]
   double theta_B_mean = 0.0;  ///< [rad]
   double theta_B_swing = 0.0, theta_R_swing = 0.0;  ///< largest minus smallest [rad]
   double theta_B_largest = 0.0;                     ///< |theta_B| [rad]
@@ -66,8 +61,9 @@ struct Flight {
 /// that the wake is there when the insect is released.
 class FlapMap {
  public:
-  /// Throws InputError when the case has no flapping period, is no Fourier motion, has nothing free,
-  /// is not made of whole steps a flap, or `run_in` < 0.
+  /// Throws InputError when the case has no flapping period, is no Fourier motion, has nothing
+  /// free, is not made of whole steps a flap, or `run_in` < 0 (> 0 where the flight leaves the
+  /// plane of symmetry: the run-in does not).
   FlapMap(const Case& c, const std::string& config_dir, std::vector<TrimParameter> parameters,
           int run_in);
 
@@ -81,7 +77,8 @@ class FlapMap {
   Flight fly(const TrimPoint& point, int flaps) const;
   /// Text of the case that flies `flaps` free flaps from a point, behind a run-in of `run_in_steps`
   /// steps in which the point's periodic flight is prescribed. That flight has the point's state
-  /// at t_start, and so at a release after whole flaps.
+  /// at t_start, and so at a release after whole flaps. A state out of the plane of symmetry is
+  /// given as the explicit start instead, without run-in.
   std::string caseText(const TrimPoint& point, int run_in_steps, int flaps) const;
 
  private:

@@ -17,14 +17,23 @@ struct WingbeatStart {
   WingbeatChange command;
 };
 
+/// What a flight does out of the plane of symmetry.
+struct SideMotion {
+  double turn = 0.0;           ///< heading at the end against that at the start [rad]
+  double mean_heading = 0.0;   ///< against that at the start [rad]
+  double mean_velocity = 0.0;  ///< to the right of the heading [m/s]
+};
+
 /// A flight from one phase of the flap to another.
 struct PhaseFlight {
   bool complete = false;
   std::string failure;
   std::vector<FlapState> states;                       ///< at every sample, the start first
   std::vector<FlapState> rates;                        ///< their time derivatives
+  std::vector<double> headings;  ///< at every sample, against the start's [rad]
   WingbeatStart wingbeat;                              ///< at the end
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< mean, x and z of NED [m/s]
+  SideMotion sideways;
 };
 
 /// Free flight of a case whose motion is periodic, in air without memory, from a state at a phase

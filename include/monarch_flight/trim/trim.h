@@ -53,9 +53,6 @@ struct TrimResult {
   int flaps_flown = 0;  ///< run-ins included
 };
 
-/// Scale of each state: changes of it count alike.
-FlapState trimScales();
-
 /// Multipliers and modes of the map with this Jacobian of (end - start) for dimensionless states.
 std::vector<FloquetMode> floquet(const Eigen::MatrixXd& periodicity_jacobian);
 
