@@ -111,7 +111,8 @@ TEST(ControlDesign, LinearMapsComposeToTheWholeFlap) {
     wingbeat.command.*kCommandTable[d.options.inputs[i]].value = u;
     wingbeat.filters[d.options.inputs[i]] = {u, 0.0, 0.0};
   }
-  const FlapState start = states.row(0).transpose();
+  FlapState start = FlapState::Zero();
+  start.head<6>() = states.row(0).transpose();
   const auto end = [&](const FlapState& from, const WingbeatStart& w) {
     const FlapState rates = map.ratesAt(0, from, w);
     const PhaseFlight flight = map.fly(0, from, w, N, &rates);
@@ -120,16 +121,18 @@ TEST(ControlDesign, LinearMapsComposeToTheWholeFlap) {
   };
   MatrixXd A = MatrixXd::Identity(14, 14);
   MatrixXd B = MatrixXd::Zero(14, 2);  // of a command held over the flap
-  for (const LinearStage& stage : d.design.stages) {
+  for (const LinearStage& stage : d.design.in_plane.stages) {
     B = (stage.A * B + stage.B).eval();
     A = (stage.A * A).eval();
   }
-  const FlapState scales = trimScales();
+  using InPlane = Eigen::Matrix<double, 6, 1>;
+  const InPlane scales = trimScales().head<6>();
   for (int i = 0; i < 6; ++i) {
     FlapState change = FlapState::Zero();
     change(i) = 0.02 * scales(i);
-    const FlapState flown = (end(start + change, wingbeat) - end(start - change, wingbeat)) / 2.0;
-    const FlapState linear = A.block<6, 1>(0, i) * change(i);
+    const InPlane flown =
+        ((end(start + change, wingbeat) - end(start - change, wingbeat)) / 2.0).head<6>();
+    const InPlane linear = A.block<6, 1>(0, i) * change(i);
     EXPECT_LT((flown - linear).cwiseQuotient(scales).norm(),
               0.05 * flown.cwiseQuotient(scales).norm() + 1e-3)
         << kStateNames[i];
@@ -139,8 +142,8 @@ TEST(ControlDesign, LinearMapsComposeToTheWholeFlap) {
     constexpr double kStep = 0.002;
     more.command.*kCommandTable[d.options.inputs[i]].value += kStep;
     less.command.*kCommandTable[d.options.inputs[i]].value -= kStep;
-    const FlapState flown = (end(start, more) - end(start, less)) / 2.0;
-    const FlapState linear = B.block<6, 1>(0, static_cast<Eigen::Index>(i)) * kStep;
+    const InPlane flown = ((end(start, more) - end(start, less)) / 2.0).head<6>();
+    const InPlane linear = B.block<6, 1>(0, static_cast<Eigen::Index>(i)) * kStep;
     EXPECT_LT((flown - linear).cwiseQuotient(scales).norm(),
               0.05 * flown.cwiseQuotient(scales).norm())
         << i;
@@ -151,18 +154,18 @@ TEST(ControlDesign, LinearMapsComposeToTheWholeFlap) {
   trim_options.newton.max_iterations = 0;
   trim_options.start = start;
   const TrimResult flap = trim(d.c, CONFIG_DIR, trim_options, log);
-  EXPECT_NEAR(std::abs(d.design.open_loop.front()), std::abs(flap.floquet.front().multiplier),
-              0.03);
+  EXPECT_NEAR(std::abs(d.design.in_plane.open_loop.front()),
+              std::abs(flap.floquet.front().multiplier), 0.03);
 }
 
 TEST(ControlDesign, KeepsAMonarchInTheAirThatTumblesWithoutIt) {
   const Designed& d = Designed::get();
-  EXPECT_GT(std::abs(d.design.open_loop.front()), 1.3);
-  EXPECT_LT(std::abs(d.design.closed_loop.front()), 0.95);
+  EXPECT_GT(std::abs(d.design.in_plane.open_loop.front()), 1.3);
+  EXPECT_LT(std::abs(d.design.in_plane.closed_loop.front()), 0.95);
   const SetPoint own = ownSetPoint(d.c);
   ControlledStart start;
   start.flaps = 12;
-  start.change << 0.2, 0.1, 0.12, 1.0, 0.1, 2.0;
+  start.change.head<6>() << 0.2, 0.1, 0.12, 1.0, 0.1, 2.0;
   const WingbeatSettings wingbeat = wingbeatSettings(d.c, d.options);
   const ControlledFlight held = flyControlled(d.c, wingbeat, d.design.settings, start);
   ASSERT_TRUE(held.complete) << held.failure;
@@ -190,7 +193,7 @@ TEST(ControlDesign, HoldsWithCommandedFrequencyOnThePhaseClock) {
   const ControlDesign design = designController(c, options, log);
   ControlledStart start;
   start.flaps = 10;
-  start.change << -0.15, 0.1, 0.1, 0.0, 0.0, 0.0;
+  start.change.head<6>() << -0.15, 0.1, 0.1, 0.0, 0.0, 0.0;
   const ControlledFlight held =
       flyControlled(c, wingbeatSettings(c, options), design.settings, start);
   ASSERT_TRUE(held.complete) << held.failure;
@@ -215,10 +218,10 @@ TEST_F(ControlCase, SectionIsReadAsItWasDesigned) {
   ASSERT_TRUE(read.guidance.controller);
   const ControllerSettings &a = *read.guidance.controller, &b = d.design.settings;
   EXPECT_EQ(a.samples, b.samples);
-  EXPECT_EQ(a.inputs, b.inputs);
-  EXPECT_LT((a.state_gain - b.state_gain).norm(), 1e-7 * b.state_gain.norm());
-  EXPECT_LT((a.filter_gain - b.filter_gain).norm(), 1e-7 * b.filter_gain.norm());
-  EXPECT_LT((a.integral_gain - b.integral_gain).norm(), 1e-7 * b.integral_gain.norm());
+  EXPECT_EQ(a.gains.inputs, b.gains.inputs);
+  EXPECT_LT((a.gains.state - b.gains.state).norm(), 1e-7 * b.gains.state.norm());
+  EXPECT_LT((a.gains.filter - b.gains.filter).norm(), 1e-7 * b.gains.filter.norm());
+  EXPECT_LT((a.gains.integral - b.gains.integral).norm(), 1e-7 * b.gains.integral.norm());
   EXPECT_LT((a.table.states() - b.table.states()).norm(), 1e-7 * b.table.states().norm());
   EXPECT_NEAR(a.set_points[0].climb, b.set_points[0].climb, 1e-10);
   EXPECT_EQ(a.first_step, 10u);
