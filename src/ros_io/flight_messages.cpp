@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "monarch_flight/flight/multibody_dynamics.h"
-#include "monarch_flight/ros_io/conversions.h"
+#include "monarch_flight/ros_io/step_conversions.h"
 #include "monarch_flight/viz/frames.h"
 #include "monarch_flight/viz/urdf.h"
 #include "monarch_flight/viz/vortex_cloud.h"
@@ -37,7 +37,7 @@ nav_msgs::Odometry odometry(const BodyState& body, const ros::Time& stamp) {
   out.header.frame_id = frames::kWorld;
   out.child_frame_id = frames::kBaseLink;
   out.pose.pose = pose(body);
-  out.twist.twist.linear = toVector3(frdToFlu() * body.R_IB.transpose() * body.v);
+  out.twist.twist.linear = toVector3(frdToFlu() * body.R_IB().transpose() * body.v);
   out.twist.twist.angular = toVector3(frdToFlu() * body.Omega_B);
   return out;
 }
@@ -77,54 +77,6 @@ geometry_msgs::WrenchStamped wrench(const PerWing<Loads>& all, bool left, const 
   out.header.frame_id = left ? frames::kLeftWing : frames::kRightWing;
   out.wrench.force = toVector3(loads.force());
   out.wrench.torque = toVector3(loads.moment());
-  return out;
-}
-
-StepIterations iterations(const CommittedStep& step, const ros::Time& stamp) {
-  StepIterations out;
-  out.header.stamp = stamp;
-  out.step = step.step;
-  out.retried = step.retried();
-  out.prescribed = step.prescribed;
-  out.fluid_evaluations = static_cast<std::uint32_t>(step.fluid_evaluations);
-  out.added_mass_ratio = step.added_mass_ratio;
-  out.work_fluid = step.work_fluid;
-  out.work_structure = step.work_structure;
-  out.rows.reserve(step.iterations.size());
-  for (const IterationRecord& record : step.iterations) out.rows.push_back(toMessage(record));
-  return out;
-}
-
-FlightState flightState(const CommittedStep& step, const ros::Time& stamp) {
-  const auto triple = [](const Coordinate& c) {
-    return boost::array<double, 3>{{c.q, c.qd, c.qdd}};
-  };
-  FlightState out;
-  out.header.stamp = stamp;
-  out.header.frame_id = frames::kWorldNed;
-  out.step = step.step;
-  out.t = step.t;
-  out.interface = toMessage(step.interface);
-  const auto& [right, left] = step.angles.wings;
-  out.phi = triple(right.phi);
-  out.psi = triple(right.psi);
-  out.phi_l = triple(left.phi);
-  out.psi_l = triple(left.psi);
-  out.theta_a = triple(step.angles.theta_A);
-  out.rest_angle = step.guided.rest_angle.right;
-  out.rest_angle_l = step.guided.rest_angle.left;
-  out.wind = toVector3(step.guided.wind.v);
-  out.guidance = toMessage(step.guidance);
-  out.loads = toMessage(step.loads.right);
-  out.loads_l = toMessage(step.loads.left);
-  for (int i = 0; i < 3; ++i) out.force[i] = step.force_I[i];
-  out.sub_iterations = static_cast<std::uint32_t>(step.iterations.size());
-  out.retried = step.retried();
-  out.courant = step.fluid.courant;
-  out.divergence = step.fluid.divergence;
-  std::copy(step.wall_s.begin(), step.wall_s.end(), out.wall_s.begin());
-  out.exchange_s = step.exchange_s;
-  out.coupling_s = step.coupling_s;
   return out;
 }
 
@@ -201,7 +153,7 @@ std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
   out.push_back({topics::kWind, stamp, wind(step.guided.wind, stamp)});
   out.push_back({topics::kRightWrench, stamp, wrench(step.loads, false, stamp)});
   if (!bare) out.push_back({topics::kLeftWrench, stamp, wrench(step.loads, true, stamp)});
-  out.push_back({topics::kIterations, stamp, iterations(step, stamp)});
+  out.push_back({topics::kIterations, stamp, stepIterations(step, stamp)});
   if (growPath(step, stamp)) out.push_back({topics::kPath, stamp, path_, true});
   if (step.step % diagnostics_stride_ == 0 || step.retried()) {
     out.push_back({topics::kDiagnostics, stamp, diagnostics(step, stamp)});

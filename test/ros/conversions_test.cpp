@@ -10,6 +10,7 @@
 #include "monarch_flight/coupling/interface_values.h"
 #include "monarch_flight/math/rotation.h"
 #include "monarch_flight/ros_io/flight_messages.h"
+#include "monarch_flight/ros_io/step_conversions.h"
 #include "monarch_flight/viz/frames.h"
 
 namespace monarch_flight {
@@ -35,7 +36,7 @@ Interface anyInterface() {
   out.body.x = anyVector();
   out.body.v = anyVector();
   out.body.a = anyVector();
-  for (int i = 0; i < 9; ++i) out.body.R_IB(i / 3, i % 3) = anyNumber();
+  for (int i = 0; i < 4; ++i) out.body.q_IB.coeffs()[i] = anyNumber();
   out.body.Omega_B = anyVector();
   out.body.Omega_dot_B = anyVector();
   out.body.pitch = anyCoordinate();
@@ -256,11 +257,14 @@ TEST(Conversions, UnusableMessagesAreNamed) {
                                   " instead of"));
   ParticipantReply reply = toMessage(Reply());
   EXPECT_EQ("", problem(reply));
-  reply.added_mass.resize(35);
-  EXPECT_NE(std::string::npos, problem(reply).find("35"));
+  reply.added_mass.resize(5);
+  EXPECT_EQ("added mass of 5 columns, not 6", problem(reply));
   reply.added_mass.clear();
-  reply.load_operator.resize(71);
-  EXPECT_NE(std::string::npos, problem(reply).find("load operator of 71 numbers"));
+  reply.load_operator.resize(2);
+  EXPECT_EQ("2 load operators, at most one fits", problem(reply));
+  reply.load_operator.clear();
+  reply.kernel_times.resize(3);
+  EXPECT_EQ("3 times by kernel, at most one fits", problem(reply));
 }
 
 TEST(Conversions, NonFiniteStatesAreSeenInEveryMember) {
@@ -275,7 +279,7 @@ TEST(Conversions, NonFiniteStatesAreSeenInEveryMember) {
       if (member < 5) {
         (*vectors[member])[2] = value;
       } else if (member == 5) {
-        interface.body.R_IB(1, 2) = value;
+        interface.body.q_IB.z() = value;
       } else {
         Coordinate* coordinates[] = {&interface.body.pitch, &interface.theta.right,
                                      &interface.theta.left};
@@ -295,7 +299,7 @@ TEST(Frames, WorldIsEastNorthUp) {
 
 TEST(Frames, NoseUpTurnsBaseLinkUpwards) {
   BodyState body;
-  body.R_IB = rotationY(0.3);  // pitch up in x forward, y right, z down
+  body.q_IB = rotationY(0.3);  // pitch up in x forward, y right, z down
   const Eigen::Vector3d nose = baseLinkAttitude(body) * Eigen::Vector3d::UnitX();
   EXPECT_NEAR(0.0, nose.x(), 1e-15);            // east
   EXPECT_NEAR(std::cos(0.3), nose.y(), 1e-15);  // north
