@@ -7,6 +7,7 @@
 #include "monarch_flight/flight/multibody_dynamics.h"
 #include "monarch_flight/ros_io/step_conversions.h"
 #include "monarch_flight/viz/frames.h"
+#include "monarch_flight/viz/pressure_cloud.h"
 #include "monarch_flight/viz/urdf.h"
 #include "monarch_flight/viz/vortex_cloud.h"
 
@@ -17,7 +18,6 @@ constexpr double kPathPosesPerFlap = 32.0;  // at first
 constexpr std::size_t kPathLimit = 400;     // poses; then every second goes and the stride doubles
 constexpr double kDiagnosticsPerFlap = 20.0;
 constexpr double kStepsWithoutPeriod = 1000.0;  // stands for a flap where there is none
-constexpr double kLift = 0.01;                  // of the coloured sides off the wing [mean chords]
 
 std::uint32_t stride(const TimeGrid& time, double per_flap) {
   const double flap = time.period > 0.0 ? time.stepsPerFlap() : kStepsWithoutPeriod;
@@ -101,7 +101,6 @@ FlightMessages::FlightMessages(const Case& c)
     : case_(c),
       path_stride_(stride(c.time, kPathPosesPerFlap)),
       diagnostics_stride_(stride(c.time, kDiagnosticsPerFlap)) {
-  pressure_ = pressureReference(c);
   path_.header.frame_id = frames::kWorld;
 }
 
@@ -118,11 +117,14 @@ std::vector<StampedMessage> FlightMessages::topics() const {
       prototype<nav_msgs::Path>(topics::kPath, true),
       prototype<geometry_msgs::Vector3Stamped>(topics::kWind),
       prototype<geometry_msgs::WrenchStamped>(topics::kRightWrench),
-      prototype<visualization_msgs::MarkerArray>(topics::kPressure, true),
+      prototype<sensor_msgs::PointCloud2>(topics::kRightPressure, true),
       prototype<sensor_msgs::PointCloud2>(topics::kVortices),
       prototype<StepIterations>(topics::kIterations)};
   if (!case_.insect.bare_wing) {
     out.push_back(prototype<geometry_msgs::WrenchStamped>(topics::kLeftWrench));
+  }
+  if (!case_.mirrored) {
+    out.push_back(prototype<sensor_msgs::PointCloud2>(topics::kLeftPressure, true));
   }
   return out;
 }
@@ -182,20 +184,15 @@ bool FlightMessages::growPath(const CommittedStep& step, const ros::Time& stamp)
 
 void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& stamp,
                                  std::vector<StampedMessage>& out) const {
-  const Insect& insect = case_.insect;
-  if (!step.surface.right.facets.empty()) {
-    visualization_msgs::MarkerArray picture = pressureMarkers(
-        step.surface, pressure_, insect.bare_wing, kLift * insect.meanChord(), stamp);
-    const visualization_msgs::MarkerArray legend =
-        pressureLegend(pressure_, insect.wings.right.planform.span(),
-                       baseLinkAttitude(step.interface.body), stamp);
-    picture.markers.insert(picture.markers.end(), legend.markers.begin(), legend.markers.end());
-    out.push_back({topics::kPressure, stamp, std::move(picture), true});
+  for (Side side : case_.sides()) {
+    if (step.surface[side].facets.empty()) continue;
+    const char* topic = side == Side::kLeft ? topics::kLeftPressure : topics::kRightPressure;
+    out.push_back({topic, stamp, pressureCloud(step.surface[side], side, stamp), true});
   }
   const bool flow = case_.fluid == FluidKind::kNavierStokes;
   if (flow && step.step > 0 && due(step.step, case_.output.vortices_every)) {
     out.push_back(
-        {topics::kVortices, stamp, vortexCloud(step.vortices, insect, step.angles, stamp)});
+        {topics::kVortices, stamp, vortexCloud(step.vortices, case_.insect, step.angles, stamp)});
   }
 }
 

@@ -8,11 +8,14 @@
 #include <sys/resource.h>
 #include <tf2/buffer_core.h>
 
+#include <cstring>
 #include <map>
 
 #include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/ros_io/state_conversions.h"
+#include "monarch_flight/run/federation.h"
 #include "monarch_flight/viz/frames.h"
+#include "monarch_flight/viz/pressure_cloud.h"
 #include "ros/process.h"
 
 namespace monarch_flight {
@@ -68,7 +71,7 @@ TEST_F(Bag, HoldsEveryTopicAsOftenAsExpected) {
   expected[topics::kCase] = 1;
   expected[topics::kPath] = 16;         // a pose in 240 / 32 = 7.5 -> 8 steps: 0, 8, .. 120
   expected[topics::kDiagnostics] = 11;  // every 12 steps: 0, 12, .. 120
-  expected[topics::kPressure] = kSteps / insect->output.surface_every;
+  expected[topics::kRightPressure] = kSteps / insect->output.surface_every;
   EXPECT_EQ(expected, count);
 }
 
@@ -189,24 +192,33 @@ TEST_F(Bag, TheIterationTableHasEverySubIteration) {
   EXPECT_EQ(rows + 1, static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')));
 }
 
-TEST_F(Bag, PressureMarkersAreTrianglesOnBothWingsWithALegend) {
-  for (const auto& picture : all<visualization_msgs::MarkerArray>(topics::kPressure)) {
-    std::map<std::string, const visualization_msgs::Marker*> wings;
-    int numbers = 0;
-    for (const auto& marker : picture->markers) {
-      if (marker.ns == "pressure") wings[marker.header.frame_id] = &marker;
-      if (marker.type == visualization_msgs::Marker::TEXT_VIEW_FACING) ++numbers;
-    }
-    ASSERT_EQ(2u, wings.size());
-    const auto &right = *wings["right_wing"], &left = *wings["left_wing"];
-    ASSERT_GT(right.points.size(), 100u);
-    ASSERT_EQ(right.points.size(), 3 * right.colors.size());
-    ASSERT_EQ(right.points.size(), left.points.size());
-    for (std::size_t i = 0; i < right.points.size(); ++i) {
-      EXPECT_EQ(right.points[i].x, left.points[i].x);
-      EXPECT_EQ(right.points[i].y, -left.points[i].y);
-    }
-    EXPECT_EQ(6, numbers);  // five numbers and the title
+struct Surfaces : StepSink {
+  std::vector<CommittedStep> steps;  // with a picture
+  void onStep(const CommittedStep& step) override {
+    if (!step.surface.right.facets.empty()) steps.push_back(step);
+  }
+  void onReset() override {}
+  void onEnd(const std::string& failure) override { EXPECT_EQ("", failure); }
+};
+
+TEST_F(Bag, HoldsThePressureOfTheSolver) {
+  const Case c = loadCase("climb_printed",
+                          {{"fluid", "quasi_steady"}, {"steps_per_flap", "240"}, {"flaps", "0.5"}},
+                          CONFIG_DIR);
+  Surfaces flown;
+  const StopFlag stop{false};
+  InProcessFederation(c).run(1, {&flown}, stop);
+  const auto clouds = all<sensor_msgs::PointCloud2>(topics::kRightPressure);
+  ASSERT_EQ(flown.steps.size(), clouds.size());
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    EXPECT_EQ("right_wing", clouds[i]->header.frame_id);
+    EXPECT_EQ(stampOf(flown.steps[i].step, c.time), clouds[i]->header.stamp);
+    const auto recorded = surfacePressure(*clouds[i], Side::kRight);
+    const auto& solved = flown.steps[i].surface.right.facets;
+    ASSERT_TRUE(recorded);
+    ASSERT_EQ(solved.size(), recorded->facets.size());
+    EXPECT_EQ(0, std::memcmp(solved.data(), recorded->facets.data(),
+                             solved.size() * sizeof(SurfacePressure::Facet)));
   }
 }
 
@@ -220,7 +232,7 @@ TEST_F(Bag, TheCaseIsTheFileAndStaticTopicsAreLatched) {
     const auto found = connection->header->find("latching");
     if (found != connection->header->end() && found->second == "1") ++latched;
   }
-  EXPECT_EQ(4, latched);  // tf_static, case, path, wing_pressure
+  EXPECT_EQ(4, latched);  // tf_static, case, path, right_wing/pressure
 }
 
 TEST(PublishedWind, IsTheCommittedOneInEastNorthUp) {
