@@ -124,6 +124,7 @@ KernelTimes fromMessage(const FluidKernelTimes& times) {
 
 std::vector<geometry_msgs::Wrench> columnsOf(const Matrix6d& matrix) {
   std::vector<geometry_msgs::Wrench> out;
+  out.reserve(6);
   for (int i = 0; i < 6; ++i) out.push_back(columnOf(matrix, i));
   return out;
 }

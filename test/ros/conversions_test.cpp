@@ -246,6 +246,52 @@ TEST(Conversions, IterationRecordsCrossBitForBit) {
   expectBitwise(record.fluid_wall_s, back.fluid_wall_s);
 }
 
+TEST(Conversions, NamedFieldsAreThoseOfTheTables) {
+  IterationRecord record;
+  for (std::size_t i = 0; i < kCoordinates; ++i) record.residual[i] = static_cast<double>(i + 1);
+  const CoordinateResiduals residual = toMessage(record).residual;
+  EXPECT_EQ(record.residual[kX], residual.x);
+  EXPECT_EQ(record.residual[kY], residual.y);
+  EXPECT_EQ(record.residual[kZ], residual.z);
+  EXPECT_EQ(record.residual[kRoll], residual.roll);
+  EXPECT_EQ(record.residual[kPitch], residual.pitch);
+  EXPECT_EQ(record.residual[kYaw], residual.yaw);
+  EXPECT_EQ(record.residual[kThetaR], residual.theta_right);
+  EXPECT_EQ(record.residual[kThetaL], residual.theta_left);
+
+  std::array<double, kRoles> wall_s{};
+  const auto of = [&wall_s](Role role) -> double& { return wall_s[std::size_t(role)]; };
+  for (Role role : kAllRoles) of(role) = 1.0 + static_cast<double>(role);
+  const RoleTimes roles = toMessage(wall_s);
+  EXPECT_EQ(of(Role::kFluid), roles.fluid);
+  EXPECT_EQ(of(Role::kFlight), roles.flight);
+  EXPECT_EQ(of(Role::kWing), roles.wing);
+  EXPECT_EQ(of(Role::kGuidance), roles.guidance);
+  EXPECT_EQ(of(Role::kFluidLeft), roles.fluid_left);
+
+  KernelTimes times{};
+  for (std::size_t i = 0; i < kKernels; ++i) times[i] = static_cast<double>(i + 1);
+  const FluidKernelTimes kernels = toMessage(times);
+  const double in_order[] = {kernels.turning,     kernels.momentum_x_y, kernels.momentum_z,
+                             kernels.net_outflow, kernels.transforms,   kernels.columns,
+                             kernels.capacitance, kernels.loads,        kernels.projection};
+  for (std::size_t i = 0; i < kKernels; ++i) EXPECT_EQ(times[i], in_order[i]) << kKernelNames[i];
+}
+
+TEST(Conversions, AWrenchOfAMatrixIsAColumn) {
+  Reply reply;
+  reply.report.added_mass(3, 1) = 7.0;  // moment about x by an acceleration along y
+  reply.jacobian.emplace();
+  reply.jacobian->velocity(2, 4) = 5.0;  // force along z by a rate about y
+  reply.jacobian->acceleration(5, 0) = 3.0;
+  const ParticipantReply message = toMessage(reply);
+  ASSERT_EQ(6u, message.added_mass.size());
+  EXPECT_EQ(7.0, message.added_mass[1].torque.x);
+  ASSERT_EQ(1u, message.load_operator.size());
+  EXPECT_EQ(5.0, message.load_operator[0].velocity[4].force.z);
+  EXPECT_EQ(3.0, message.load_operator[0].acceleration[0].torque.z);
+}
+
 TEST(Conversions, UnusableMessagesAreNamed) {
   ParticipantRequest request = toMessage(Request());
   EXPECT_EQ("", problem(request));
