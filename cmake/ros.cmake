@@ -11,9 +11,11 @@ set(ROS_PACKAGES actionlib actionlib_msgs diagnostic_msgs diagnostic_updater geo
   rosgraph_msgs roslz4 sensor_msgs std_msgs std_srvs tf2_msgs topic_tools visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS message_generation ${ROS_PACKAGES})
 
-add_message_files(DIRECTORY msg FILES CouplingKey.msg FlightState.msg GuidanceState.msg Hello.msg IgnoredCounts.msg
-  InterfaceState.msg JointMotion.msg ParticipantReply.msg ParticipantRequest.msg PrescribedLevel.msg PressureFacet.msg
-  StepIterations.msg SubIteration.msg VortexSample.msg WholeFlow.msg WingLoads.msg WingbeatCommand.msg)
+add_message_files(DIRECTORY msg FILES BodyMotion.msg CoordinateResiduals.msg CouplingKey.msg FlightState.msg
+  FluidKernelTimes.msg GuidanceState.msg Hello.msg IgnoredCounts.msg InterfaceState.msg JointMotion.msg
+  LoadDerivatives.msg ParticipantReply.msg ParticipantRequest.msg PrescribedLevel.msg PressureFacet.msg RoleTimes.msg
+  StepIterations.msg SubIteration.msg VortexSample.msg WholeFlow.msg WingFace.msg WingJoints.msg WingLoads.msg
+  WingbeatCommand.msg)
 add_service_files(DIRECTORY srv FILES FlySteps.srv)
 add_action_files(DIRECTORY action FILES Fly.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs std_msgs)

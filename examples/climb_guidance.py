@@ -23,10 +23,10 @@ class ClimbGuidance:
         self.t, self.vx_sum, self.vz_sum = request.t, 0.0, 0.0
 
     def command(self, request):
-        flown, wanted = request.interface, request.prescribed.interface
-        vx = flown.velocity[0] - wanted.velocity[0]
-        vz = flown.velocity[2] - wanted.velocity[2]
-        pitch = flown.theta_b[0] - wanted.theta_b[0]
+        flown, wanted = request.interface.body, request.prescribed.body
+        vx = flown.velocity.x - wanted.velocity.x
+        vz = flown.velocity.z - wanted.velocity.z
+        pitch = flown.pitch.position - wanted.pitch.position
         flaps = self.frequency * (request.t - self.t)
         self.t, self.vx_sum, self.vz_sum = (
             request.t, self.vx_sum + vx * flaps, self.vz_sum + vz * flaps)

@@ -10,7 +10,8 @@ square to the stream. No lift, no added mass, no wake: an example of the protoco
 import sys
 
 import numpy as np
-from monarch_flight.msg import ParticipantReply
+from geometry_msgs.msg import Vector3, Wrench
+from monarch_flight.msg import LoadDerivatives, ParticipantReply
 
 from solver_node import SolverNode
 
@@ -27,6 +28,21 @@ def rotation(axis, angle):
     R[i, i] = R[j, j] = c
     R[i, j], R[j, i] = -s, s
     return R
+
+
+def rotation_of(q):
+    """The matrix of a unit quaternion."""
+    v = np.array([q.x, q.y, q.z])
+    cross = np.cross(np.eye(3), v)  # cross @ a is v x a
+    return np.eye(3) + 2 * q.w * cross + 2 * cross @ cross
+
+
+def numbers(vector):
+    return np.array([vector.x, vector.y, vector.z])
+
+
+def wrench(six):
+    return Wrench(Vector3(*six[:3]), Vector3(*six[3:]))
 
 
 class DragFluid:
@@ -46,10 +62,10 @@ class DragFluid:
     def iterate(self, request):
         u = self.wing_velocity(request)
         reply = ParticipantReply(interface=request.interface)
-        force, moment = np.split(self.loads(u), 2)
-        reply.loads.force_pressure, reply.loads.moment_pressure = list(force), list(moment)
+        reply.loads.pressure = wrench(self.loads(u))
         if request.want_operator:
-            reply.load_operator = list(self.jacobian(u).ravel()) + 36 * [0.0]
+            columns = [wrench(column) for column in self.jacobian(u).T]
+            reply.load_operator = [LoadDerivatives(columns, 6 * [Wrench()])]
         return reply
 
     def commit(self, request):
@@ -57,18 +73,18 @@ class DragFluid:
 
     def wing_velocity(self, request):
         """(velocity of the root against the air, angular velocity), wing axes [m/s, rad/s]."""
-        state, prescribed = request.interface, request.prescribed
-        phi, phi_dot = prescribed.phi.position, prescribed.phi.velocity
-        psi, psi_dot = prescribed.psi.position, prescribed.psi.velocity
-        theta, theta_dot = state.theta_r[0], state.theta_r[1]
-        wind = np.array([prescribed.wind.x, prescribed.wind.y, prescribed.wind.z])
+        body, joints = request.interface.body, request.prescribed.right_wing
+        phi, phi_dot = joints.phi.position, joints.phi.velocity
+        psi, psi_dot = joints.psi.position, joints.psi.velocity
+        hinge = request.interface.theta_right  # that of `joints` is only prescribed
+        theta, theta_dot = hinge.position, hinge.velocity
+        air = numbers(body.velocity) - numbers(request.prescribed.wind)
         Q_BW = rotation(1, self.beta) @ rotation(0, phi) @ rotation(2, -psi) @ rotation(1, theta)
-        R_IB = np.reshape(state.attitude, (3, 3))
-        Omega_B = np.array(state.angular_velocity)
+        Omega_B = numbers(body.angular_velocity)
         rate = np.array([phi_dot * np.cos(psi) * np.cos(theta) + psi_dot * np.sin(theta),
                          phi_dot * np.sin(psi) + theta_dot,
                          phi_dot * np.cos(psi) * np.sin(theta) - psi_dot * np.cos(theta)])
-        v_B = R_IB.T @ (np.array(state.velocity) - wind) + np.cross(Omega_B, self.root)
+        v_B = rotation_of(body.orientation).T @ air + np.cross(Omega_B, self.root)
         return np.concatenate([Q_BW.T @ v_B, rate + Q_BW.T @ Omega_B])
 
     def loads(self, u):

@@ -13,7 +13,8 @@ def step_times(folder):
         for _, state, _ in bag.read_messages(topics=["/monarch_flight/state"]):
             if state.sub_iterations < 2:  # prescribed
                 continue
-            fluid, flight, wing, guidance, fluid_left = state.wall_s  # both fluids compute at the same time
-            total = max(fluid, fluid_left) + flight + wing + guidance + state.exchange_s + state.coupling_s
+            roles = state.computing
+            computing = max(roles.fluid, roles.fluid_left) + roles.flight + roles.wing + roles.guidance
+            total = computing + state.exchange_s + state.coupling_s
             times.append(StepTimes(state.sub_iterations, state.exchange_s, state.coupling_s, total))
     return times

@@ -33,8 +33,9 @@ def flight(folder):
     rows = []
     with rosbag.Bag(str(path)) as bag:
         for _, m, _ in bag.read_messages(topics=["/monarch_flight/state"]):
-            s = m.interface
-            rows.append((m.t, s.position[0], s.position[2], s.theta_b[0], s.theta_r[0], m.phi[0], m.force[0], m.force[2]))
+            place, right = m.body.position, m.right_wing
+            rows.append((m.t, place.x, place.z, m.body.pitch.position, right.theta.position, right.phi.position,
+                         m.force.x, m.force.z))
     if len(rows) < 3:
         sys.exit(f"figures: {path}: holds no steps; the run ended at its start")
     return dict(zip(("t", "x", "z", "theta_B", "theta_R", "phi", "FX", "FZ"), np.array(rows).T))

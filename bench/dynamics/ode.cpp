@@ -11,7 +11,7 @@ FreeInsect::FreeInsect(const Insect& insect, double gravity, Joints joints, Join
     : dynamics_(insect, gravity), joints_(std::move(joints)), loads_(std::move(loads)) {}
 
 OdeState FreeInsect::state(const BodyState& body) {
-  const Eigen::Quaterniond q(body.R_IB);
+  const Quaternion& q = body.q_IB;
   OdeState y(13);
   Eigen::Map<Eigen::Matrix<double, 13, 1>>(y.data()) << body.x, q.w(), q.x(), q.y(), q.z(), body.v,
       body.Omega_B;
@@ -22,7 +22,7 @@ InsectMotion FreeInsect::motion(const OdeState& y, double t) const {
   const Eigen::Map<const Eigen::Matrix<double, 13, 1>> s(y.data());
   InsectMotion m;
   m.body.x = s.head<3>();
-  m.body.R_IB = Eigen::Quaterniond(s(3), s(4), s(5), s(6)).normalized().toRotationMatrix();
+  m.body.q_IB = Quaternion(s(3), s(4), s(5), s(6)).normalized();
   m.body.v = s.segment<3>(7);
   m.body.Omega_B = s.tail<3>();
   m.joints = joints_(t);

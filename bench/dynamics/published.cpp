@@ -7,21 +7,20 @@
 namespace monarch_flight::verify {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kBound = 1e-8;
 
-/// Linear momentum in balance. The published attitudes leave SO(3) by up to 1.1e-7; their equations
-/// have the mass itself, not m R R^T, in front of x'', so R^-1 stands for R^T here.
+/// Linear momentum in balance, with the published attitude where it turns forces of the body's
+/// axes; the published equations have the mass itself in front of x''.
 Vector3d momentumResidual(const MultibodyDynamics& dynamics, const Insect& insect,
                           const Sample& s) {
   InsectMotion m = s.motion(insect.beta);
-  const Matrix3d& R = m.body.R_IB;
-  const Vector3d a = m.body.a - kGravity * Vector3d::UnitZ();
-  m.body.a = R.transpose().inverse() * R.inverse() * a;
-  return dynamics.inertialForce(m).head<3>() + insect.m_B * (a - m.body.a) -
-         dynamics.appliedForce(m, s.loads).head<3>();
+  m.body.a.setZero();
+  const Vector3d rest =
+      dynamics.inertialForce(m).head<3>() - dynamics.appliedForce(m, s.loads).head<3>();
+  return insect.totalMass() * (s.a - kGravity * Vector3d::UnitZ()) +
+         s.R_IB * m.body.R_IB().transpose() * rest;
 }
 
 DynamicsRows alongHistory(const History& history, const std::string& folder) {

@@ -46,9 +46,13 @@ class Rows {
   NumericTable table_;
 };
 
-/// What one row says: motion, loads and joint torques.
+/// What one row says: motion, loads and joint torques. The published attitudes leave SO(3) by up to
+/// 1.1e-7; the body's is the nearest rotation, and its v and a - g are those that the published
+/// equations, which turn them by the transpose, have in body axes.
 struct Sample {
   BodyState body;
+  Eigen::Matrix3d R_IB;  ///< as published
+  Eigen::Vector3d a;     ///< as published, NED [m/s^2]
   JointAngles angles;
   std::array<Eigen::Matrix<double, 6, 1>, 3> loads;
   /// On right wing, left wing, abdomen, body axes, no spring.

@@ -1,4 +1,5 @@
 #include "dynamics/published.h"
+#include "monarch_flight/math/rotation.h"
 
 namespace monarch_flight::verify {
 
@@ -49,11 +50,14 @@ Sample sampleOf(const History& history, const Rows& rows, std::size_t n) {
   const bool p = history.passive;
   const int first = p ? 4 : 1;
   for (int j = 0; j < 3; ++j) {
-    s.body.R_IB.row(j) = rows.vector(n, p ? "X" : "Rcm", first + 3 * j);
+    s.R_IB.col(j) = rows.vector(n, p ? "X" : "Rcm", first + 3 * j);
   }
-  s.body.R_IB.transposeInPlace();  // published column by column
-  s.body.v = p ? rows.vector(n, "X", 13) : rows.vector(n, "xdot");
-  s.body.a = p ? rows.vector(n, "X_dot", 13) : rows.vector(n, "xddot");
+  const Matrix3d nearest = orthonormalised(s.R_IB), turn = nearest * s.R_IB.transpose();
+  const Vector3d g = kGravity * Vector3d::UnitZ();
+  s.body.q_IB = nearest;
+  s.body.v = turn * (p ? rows.vector(n, "X", 13) : rows.vector(n, "xdot"));
+  s.a = p ? rows.vector(n, "X_dot", 13) : rows.vector(n, "xddot");
+  s.body.a = g + turn * (s.a - g);
   s.body.Omega_B = p ? rows.vector(n, "X", 16) : rows.vector(n, "W");
   s.body.Omega_dot_B = p ? rows.vector(n, "X_dot", 16) : rows.vector(n, "Wdot");
   const std::string bar = p ? "_" : "";

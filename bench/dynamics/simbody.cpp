@@ -110,11 +110,11 @@ class Engine {
   void start(const PrescribedState& s) {
     SimTK::Mat33 R;
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) R(i, j) = s.body.R_IB(i, j);
+      for (int j = 0; j < 3; ++j) R(i, j) = s.body.R_IB()(i, j);
     }
     body_.setQToFitTransform(state_, SimTK::Transform(SimTK::Rotation(R), vec(s.body.x)));
     body_.setUToFitVelocity(state_,
-                            SimTK::SpatialVec(vec(s.body.R_IB * s.body.Omega_B), vec(s.body.v)));
+                            SimTK::SpatialVec(vec(s.body.R_IB() * s.body.Omega_B), vec(s.body.v)));
     for (Side side : kSides) {
       SimTK::MobilizedBody::Pin& wing = side == Side::kRight ? right_ : left_;
       wing.setOneQ(state_, 0, s.angles.wings[side].theta.q);
@@ -261,7 +261,7 @@ void addSixDof(Case c, DynamicsRows& rows) {
            // In its true axes the left wing pitches as its mirror image does.
            Eigen::Matrix<double, 6, 1> difference, size;
            difference << (ours.body.x - s.x).norm(),
-               logSO3(ours.body.R_IB.transpose() * s.R_IB).norm(),
+               logSO3(ours.body.R_IB().transpose() * s.R_IB).norm(),
                std::hypot(right.theta.q - s.theta.right, left.theta.q - s.theta.left),
                (ours.body.v - s.v).norm(), (ours.body.Omega_B - s.Omega_B).norm(),
                std::hypot(right.theta.qd - s.theta_dot.right, left.theta.qd - s.theta_dot.left);

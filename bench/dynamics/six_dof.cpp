@@ -26,7 +26,7 @@ SixDofFlight::SixDofFlight(const Insect& insect, double gravity,
              {Side::kLeft, insect, gravity, Newmark()}} {}
 
 OdeState SixDofFlight::state(const PrescribedState& at) {
-  const Eigen::Quaterniond q(at.body.R_IB);
+  const Quaternion& q = at.body.q_IB;
   const auto& [right, left] = at.angles.wings;
   OdeState y(17);
   Eigen::Map<Layout>(y.data()) << at.body.x, q.w(), q.x(), q.y(), q.z(), at.body.v, at.body.Omega_B,
@@ -39,7 +39,7 @@ PrescribedState SixDofFlight::motion(const OdeState& y, double t) const {
   PrescribedState now = motion_->at(t);
   BodyState& body = now.body;
   body.x = s.head<3>();
-  body.R_IB = Eigen::Quaterniond(s(3), s(4), s(5), s(6)).normalized().toRotationMatrix();
+  body.q_IB = Quaternion(s(3), s(4), s(5), s(6)).normalized();
   body.v = s.segment<3>(7);
   body.Omega_B = s.segment<3>(10);
   now.angles.wings.right.theta = {s(13), s(14), 0.0};
@@ -95,7 +95,7 @@ PrescribedState AsymmetricMotion::at(double t) const {
   left.psi = {late.psi.q - 0.08, late.psi.qd, late.psi.qdd};
   BodyState& body = state.body;
   body.v += Vector3d(0.0, 0.3, 0.0);
-  body.R_IB = rotationZ(0.5) * body.R_IB * rotationX(-0.4);
+  body.q_IB = quaternionZ(0.5) * body.q_IB * quaternionX(-0.4);
   body.Omega_B += Vector3d(6.0, 0.0, -9.0);
   setPitchAngle(body);
   return state;
@@ -143,7 +143,7 @@ Interface coupledFlap(const Case& c, std::shared_ptr<const PrescribedMotion> mot
 double apart(const Interface& a, const PrescribedState& b) {
   const auto relative = [](double difference, double size) { return difference / size; };
   return std::max({relative((a.body.x - b.body.x).norm(), b.body.x.norm()),
-                   relative(logSO3(a.body.R_IB.transpose() * b.body.R_IB).norm(), 1.0),
+                   relative(logSO3(a.body.R_IB().transpose() * b.body.R_IB()).norm(), 1.0),
                    relative((a.body.Omega_B - b.body.Omega_B).norm(), b.body.Omega_B.norm()),
                    relative(std::abs(a.theta.right.q - b.angles.wings.right.theta.q), 1.0),
                    relative(std::abs(a.theta.left.q - b.angles.wings.left.theta.q), 1.0)});

@@ -220,7 +220,7 @@ void Coordinator::finish(const PerWing<Loads>& loads, CommittedStep& out) {
   Eigen::Vector3d force_B = wingAttitude(Side::kRight, beta, right) * loads.right.force();
   if (!model_.insect.bare_wing)
     force_B += wingAttitude(Side::kLeft, beta, left) * mirrored(loads.left).force();
-  out.force_I = out.interface.body.R_IB * force_B;
+  out.force_I = out.interface.body.R_IB() * force_B;
 
   committed_ = out.interface;
   prescribed_ = out.guided;

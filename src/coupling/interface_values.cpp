@@ -21,10 +21,10 @@ bool finite(const Loads& loads) {
 
 InterfaceValues interfaceValues(const Interface& interface) {
   const BodyState& body = interface.body;
+  const Quaternion& q = body.q_IB;
   InterfaceValues values;
-  values << body.x, body.v, body.a, body.R_IB.col(0), body.R_IB.col(1), body.R_IB.col(2),
-      body.Omega_B, body.Omega_dot_B, triple(body.pitch), triple(interface.theta.right),
-      triple(interface.theta.left);
+  values << body.x, body.v, body.a, q.w(), q.x(), q.y(), q.z(), body.Omega_B, body.Omega_dot_B,
+      triple(body.pitch), triple(interface.theta.right), triple(interface.theta.left);
   return values;
 }
 
@@ -38,11 +38,11 @@ Interface interfaceOf(const InterfaceValues& values) {
   body.x = v(0);
   body.v = v(3);
   body.a = v(6);
-  for (int i = 0; i < 3; ++i) body.R_IB.col(i) = v(9 + 3 * i);
-  body.Omega_B = v(18);
-  body.Omega_dot_B = v(21);
-  body.pitch = coordinate(24);
-  interface.theta = {coordinate(27), coordinate(30)};
+  body.q_IB = Quaternion(values[9], values[10], values[11], values[12]);
+  body.Omega_B = v(13);
+  body.Omega_dot_B = v(16);
+  body.pitch = coordinate(19);
+  interface.theta = {coordinate(22), coordinate(25)};
   return interface;
 }
 
@@ -59,14 +59,14 @@ PrescribedState prescribedOf(const PrescribedValues& values) {
   const auto coordinate = [&values](int first) {
     return Coordinate{values[first], values[first + 1], values[first + 2]};
   };
-  const Interface interface = interfaceOf(values.head<33>());
+  const Interface interface = interfaceOf(values.head<28>());
   PrescribedState prescribed;
   prescribed.body = interface.body;
-  prescribed.angles.wings = {{coordinate(33), coordinate(36), interface.theta.right},
-                             {coordinate(39), coordinate(42), interface.theta.left}};
-  prescribed.angles.theta_A = coordinate(45);
-  prescribed.rest_angle = {values[48], values[49]};
-  prescribed.wind = {values.segment<3>(50), values.segment<3>(53)};
+  prescribed.angles.wings = {{coordinate(28), coordinate(31), interface.theta.right},
+                             {coordinate(34), coordinate(37), interface.theta.left}};
+  prescribed.angles.theta_A = coordinate(40);
+  prescribed.rest_angle = {values[43], values[44]};
+  prescribed.wind = {values.segment<3>(45), values.segment<3>(48)};
   return prescribed;
 }
 

@@ -38,11 +38,6 @@ Coordinate turned(const Newmark& newmark, double w, double w_dot, double w_dot_n
   return newmark.advance({0.0, w, w_dot}, w_dot_next);
 }
 
-/// One step of Newton's method towards the nearest rotation: what rounding leaves stays rounding.
-Eigen::Matrix3d cleaned(const Eigen::Matrix3d& R) {
-  return R * (1.5 * Eigen::Matrix3d::Identity() - 0.5 * R.transpose() * R);
-}
-
 /// Attitude and angular velocity of level n+1 on the group.
 void turn(BodyState& next, const BodyState& n, const FreeCoordinates& free, const Newmark& newmark,
           const Eigen::Vector3d& Omega_dot) {
@@ -57,7 +52,7 @@ void turn(BodyState& next, const BodyState& n, const FreeCoordinates& free, cons
       increment(i) = 0.5 * newmark.dt * (n.Omega_B(i) + next.Omega_B(i));
     }
   }
-  next.R_IB = cleaned(n.R_IB * expSO3(increment));
+  next.q_IB = (n.q_IB * expQuaternion(increment)).normalized();
   setPitchAngle(next);
 }
 
@@ -120,7 +115,7 @@ BodyState FlightSolver::step(const BodyState& n, const BodyState& prescribed,
                              const BodyState& guess, const JointAngles& angles,
                              const PerWing<Loads>& loads) const {
   if (free_[kPitch] && !free_[kRoll] && !free_[kYaw] &&
-      !(n.R_IB - rotationY(n.pitch.q)).isZero(1e-9)) {
+      !(n.R_IB() - rotationY(n.pitch.q)).isZero(1e-9)) {
     throw InputError(
         "free/pitch = true: the body's attitude must be a pure pitch (no roll, no yaw); prescribe "
         "such a motion, set free/pitch to false, or free/roll and free/yaw to true");

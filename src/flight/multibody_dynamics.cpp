@@ -28,7 +28,7 @@ Eigen::Matrix<double, 6, 9> jointMap(const Appendage& part, const BodyState& bod
                                      const JointState& joint) {
   const Eigen::Matrix3d Q_t = joint.Q.transpose();
   Eigen::Matrix<double, 6, 9> X = Eigen::Matrix<double, 6, 9>::Zero();
-  X.block<3, 3>(0, 0) = (body.R_IB * joint.Q).transpose();
+  X.block<3, 3>(0, 0) = (body.R_IB() * joint.Q).transpose();
   X.block<3, 3>(0, 3) = -Q_t * hat(part.mu);
   X.block<3, 3>(3, 3) = Q_t;
   X.block<3, 3>(3, 6).setIdentity();
@@ -57,7 +57,7 @@ Eigen::Vector3d totalRate(const BodyState& body, const JointState& joint) {
 /// Absolute velocity of an appendage's joint, own axes.
 Eigen::Vector3d jointVelocity(const Appendage& part, const BodyState& body,
                               const JointState& joint) {
-  return joint.Q.transpose() * (body.R_IB.transpose() * body.v + body.Omega_B.cross(part.mu));
+  return joint.Q.transpose() * (body.R_IB().transpose() * body.v + body.Omega_B.cross(part.mu));
 }
 
 /// Inertial force and moment about the joint of one appendage, own axes.
@@ -68,7 +68,7 @@ Vector6d inertialLoad(const Appendage& part, const BodyState& body, const JointS
   const Eigen::Vector3d w_dot =
       joint.Omega_dot + Q_t * body.Omega_dot_B + body_rate.cross(joint.Omega);
   const Eigen::Vector3d a =
-      Q_t * (body.R_IB.transpose() * body.a + body.Omega_dot_B.cross(part.mu) +
+      Q_t * (body.R_IB().transpose() * body.a + body.Omega_dot_B.cross(part.mu) +
              body.Omega_B.cross(body.Omega_B.cross(part.mu)));
   Vector6d load;
   load << part.m * (a + w_dot.cross(part.nu) + w.cross(w.cross(part.nu))),
@@ -153,7 +153,7 @@ Vector15d MultibodyDynamics::bias(const InsectMotion& motion) const {
 }
 
 Vector15d MultibodyDynamics::gravityForce(const InsectMotion& motion) const {
-  const Eigen::Vector3d g_B = gravity_ * motion.body.R_IB.transpose() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d g_B = gravity_ * motion.body.R_IB().transpose() * Eigen::Vector3d::UnitZ();
   std::array<Vector6d, 3> weights;
   for (std::size_t i = 0; i < 3; ++i) {
     const Eigen::Vector3d weight = appendages_[i].m * (motion.joints[i].Q.transpose() * g_B);
@@ -209,7 +209,7 @@ Eigen::Vector3d MultibodyDynamics::linearMomentum(const InsectMotion& motion) co
     const JointState& joint = motion.joints[i];
     const Eigen::Vector3d v =
         jointVelocity(part, motion.body, joint) + totalRate(motion.body, joint).cross(part.nu);
-    momentum += part.m * (motion.body.R_IB * (joint.Q * v));
+    momentum += part.m * (motion.body.R_IB() * (joint.Q * v));
   }
   return momentum;
 }
@@ -217,14 +217,14 @@ Eigen::Vector3d MultibodyDynamics::linearMomentum(const InsectMotion& motion) co
 Eigen::Vector3d MultibodyDynamics::angularMomentum(const InsectMotion& motion) const {
   const BodyState& body = motion.body;
   Eigen::Vector3d momentum =
-      body.R_IB * (insect_.J_B * body.Omega_B) + insect_.m_B * body.x.cross(body.v);
+      body.R_IB() * (insect_.J_B * body.Omega_B) + insect_.m_B * body.x.cross(body.v);
   for (std::size_t i = 0; i < 3; ++i) {
     const Appendage& part = appendages_[i];
-    const Eigen::Matrix3d R_IA = body.R_IB * motion.joints[i].Q;
+    const Eigen::Matrix3d R_IA = body.R_IB() * motion.joints[i].Q;
     Vector6d twist;
     twist << jointVelocity(part, body, motion.joints[i]), totalRate(body, motion.joints[i]);
     const Vector6d p = spatialInertia(part) * twist;  // momentum; angular momentum about the joint
-    const Eigen::Vector3d joint_I = body.x + body.R_IB * part.mu;
+    const Eigen::Vector3d joint_I = body.x + body.R_IB() * part.mu;
     momentum += R_IA * p.tail<3>() + joint_I.cross(R_IA * p.head<3>());
   }
   return momentum;
@@ -235,7 +235,7 @@ Eigen::Vector3d MultibodyDynamics::massCentre(const InsectMotion& motion) const 
   Eigen::Vector3d moment = insect_.m_B * body.x;
   for (std::size_t i = 0; i < 3; ++i) {
     const Appendage& part = appendages_[i];
-    moment += part.m * (body.x + body.R_IB * (part.mu + motion.joints[i].Q * part.nu));
+    moment += part.m * (body.x + body.R_IB() * (part.mu + motion.joints[i].Q * part.nu));
   }
   return moment / insect_.totalMass();
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "monarch_flight/insect/insect.h"
 #include "monarch_flight/insect/newmark.h"
@@ -18,7 +17,7 @@ Eigen::Vector3d axialImage(const Eigen::Vector3d& a) { return {0.0 - a.x(), a.y(
 
 BodyState withPitch(BodyState body, const Coordinate& pitch) {
   body.pitch = pitch;
-  body.R_IB = rotationY(pitch.q);
+  body.q_IB = quaternionY(pitch.q);
   body.Omega_B = Eigen::Vector3d(0.0, pitch.qd, 0.0);
   body.Omega_dot_B = Eigen::Vector3d(0.0, pitch.qdd, 0.0);
   return body;
@@ -31,15 +30,13 @@ WingMotion relativeTo(const Wind& wind, WingMotion motion) {
 }
 
 bool onlyPitches(const BodyState& body) {
-  const Eigen::Matrix3d& R = body.R_IB;
-  return R(0, 1) == 0.0 && R(1, 0) == 0.0 && R(1, 2) == 0.0 && R(2, 1) == 0.0 &&
-         body.Omega_B.x() == 0.0 && body.Omega_B.z() == 0.0 && body.Omega_dot_B.x() == 0.0 &&
-         body.Omega_dot_B.z() == 0.0;
+  return body.q_IB.x() == 0.0 && body.q_IB.z() == 0.0 && body.Omega_B.x() == 0.0 &&
+         body.Omega_B.z() == 0.0 && body.Omega_dot_B.x() == 0.0 && body.Omega_dot_B.z() == 0.0;
 }
 
 // pitch = asin(-R(2,0)); R' = R W, R'' = R (W W + W') with W = hat(Omega).
 void setPitchAngle(BodyState& body) {
-  const Eigen::RowVector3d row = body.R_IB.row(2);
+  const Eigen::RowVector3d row = body.R_IB().row(2);
   const Eigen::Vector3d& w = body.Omega_B;
   const Eigen::Vector3d e1 = Eigen::Vector3d::UnitX();
   const double s = -row * e1;
@@ -63,8 +60,7 @@ BodyState mirrored(const BodyState& body) {
   image.x = polarImage(body.x);
   image.v = polarImage(body.v);
   image.a = polarImage(body.a);
-  for (const auto& [i, k] : {std::pair{0, 1}, {1, 0}, {1, 2}, {2, 1}})
-    image.R_IB(i, k) = 0.0 - body.R_IB(i, k);
+  image.q_IB.vec() = axialImage(body.q_IB.vec());
   image.Omega_B = axialImage(body.Omega_B);
   image.Omega_dot_B = axialImage(body.Omega_dot_B);
   return image;
@@ -124,8 +120,9 @@ WingMotion wingMotion(Side side, const Insect& insect, const BodyState& true_bod
   const Eigen::Vector3d Omega_W = Q.transpose() * Omega;  // body's angular velocity, wing axes
 
   WingMotion motion;
-  motion.r_I = body.x + body.R_IB * mu;
-  motion.R_IW = body.R_IB * Q;
+  const Eigen::Matrix3d R_IB = body.R_IB();
+  motion.r_I = body.x + R_IB * mu;
+  motion.R_IW = R_IB * Q;
   motion.v_W = motion.R_IW.transpose() * body.v + Q.transpose() * Omega.cross(mu);
   motion.omega_W = rate + Omega_W;
   motion.a_W = motion.R_IW.transpose() * body.a +

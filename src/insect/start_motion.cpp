@@ -20,7 +20,7 @@ BodyState withAngles(BodyState body, const Coordinate& roll, const Coordinate& p
   const double cr = std::cos(roll.q), sr = std::sin(roll.q);
   const double cp = std::cos(pitch.q), sp = std::sin(pitch.q);
   body.pitch = pitch;
-  body.R_IB = rotationZ(yaw.q) * rotationY(pitch.q) * rotationX(roll.q);
+  body.q_IB = quaternionZ(yaw.q) * quaternionY(pitch.q) * quaternionX(roll.q);
   body.Omega_B = {roll.qd - yaw.qd * sp, pitch.qd * cr + yaw.qd * sr * cp,
                   yaw.qd * cp * cr - pitch.qd * sr};
   body.Omega_dot_B = {

@@ -22,7 +22,7 @@ void setAttitude(BodyState& body, const Eigen::Vector4d& p, const Eigen::Vector4
   const auto vectorPart = [&p](const Eigen::Vector4d& d) -> Eigen::Vector3d {
     return p[0] * d.tail<3>() - d[0] * p.tail<3>() - p.tail<3>().cross(d.tail<3>());
   };
-  body.R_IB = Eigen::Quaterniond(p[0], p[1], p[2], p[3]).normalized().toRotationMatrix();
+  body.q_IB = Quaternion(p[0], p[1], p[2], p[3]).normalized();
   body.Omega_B = 2.0 / n2 * vectorPart(pd);
   body.Omega_dot_B = 2.0 / n2 * vectorPart(pdd) - 2.0 * p.dot(pd) / n2 * body.Omega_B;
   setPitchAngle(body);

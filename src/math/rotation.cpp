@@ -24,6 +24,16 @@ Eigen::Matrix3d expSO3(const Eigen::Vector3d& a) {
   return Eigen::Matrix3d::Identity() + sine_ratio * A + 0.5 * half_ratio * half_ratio * A * A;
 }
 
+Quaternion expQuaternion(const Eigen::Vector3d& a) {
+  const double angle = a.norm();
+  double half_ratio =
+      0.5 - angle * angle / 48.0;  // sin(angle/2)/angle, exact to rounding below 1e-4
+  if (angle > 1e-4) half_ratio = std::sin(0.5 * angle) / angle;
+  return {std::cos(0.5 * angle), half_ratio * a.x(), half_ratio * a.y(), half_ratio * a.z()};
+}
+
+Eigen::Matrix3d rotationOf(const Quaternion& q) { return q.toRotationMatrix(); }
+
 Eigen::Vector3d logSO3(const Eigen::Matrix3d& R) {
   // The unit quaternion (cos, axis sin) of half the angle is well conditioned everywhere, pi
   // included.
@@ -53,6 +63,18 @@ Eigen::Matrix3d rotationZ(double angle) {
   Eigen::Matrix3d R;
   R << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
   return R;
+}
+
+Quaternion quaternionX(double angle) {
+  return {std::cos(0.5 * angle), std::sin(0.5 * angle), 0.0, 0.0};
+}
+
+Quaternion quaternionY(double angle) {
+  return {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0};
+}
+
+Quaternion quaternionZ(double angle) {
+  return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
 }
 
 Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& R) {

@@ -5,8 +5,9 @@
 #include <cstdint>
 
 #include "monarch_flight/flight/multibody_dynamics.h"
-#include "monarch_flight/ros_io/conversions.h"
+#include "monarch_flight/ros_io/step_conversions.h"
 #include "monarch_flight/viz/frames.h"
+#include "monarch_flight/viz/pressure_cloud.h"
 #include "monarch_flight/viz/urdf.h"
 #include "monarch_flight/viz/vortex_cloud.h"
 
@@ -17,7 +18,6 @@ constexpr double kPathPosesPerFlap = 32.0;  // at first
 constexpr std::size_t kPathLimit = 400;     // poses; then every second goes and the stride doubles
 constexpr double kDiagnosticsPerFlap = 20.0;
 constexpr double kStepsWithoutPeriod = 1000.0;  // stands for a flap where there is none
-constexpr double kLift = 0.01;                  // of the coloured sides off the wing [mean chords]
 
 std::uint32_t stride(const TimeGrid& time, double per_flap) {
   const double flap = time.period > 0.0 ? time.stepsPerFlap() : kStepsWithoutPeriod;
@@ -37,7 +37,7 @@ nav_msgs::Odometry odometry(const BodyState& body, const ros::Time& stamp) {
   out.header.frame_id = frames::kWorld;
   out.child_frame_id = frames::kBaseLink;
   out.pose.pose = pose(body);
-  out.twist.twist.linear = toVector3(frdToFlu() * body.R_IB.transpose() * body.v);
+  out.twist.twist.linear = toVector3(frdToFlu() * body.R_IB().transpose() * body.v);
   out.twist.twist.angular = toVector3(frdToFlu() * body.Omega_B);
   return out;
 }
@@ -80,54 +80,6 @@ geometry_msgs::WrenchStamped wrench(const PerWing<Loads>& all, bool left, const 
   return out;
 }
 
-StepIterations iterations(const CommittedStep& step, const ros::Time& stamp) {
-  StepIterations out;
-  out.header.stamp = stamp;
-  out.step = step.step;
-  out.retried = step.retried();
-  out.prescribed = step.prescribed;
-  out.fluid_evaluations = static_cast<std::uint32_t>(step.fluid_evaluations);
-  out.added_mass_ratio = step.added_mass_ratio;
-  out.work_fluid = step.work_fluid;
-  out.work_structure = step.work_structure;
-  out.rows.reserve(step.iterations.size());
-  for (const IterationRecord& record : step.iterations) out.rows.push_back(toMessage(record));
-  return out;
-}
-
-FlightState flightState(const CommittedStep& step, const ros::Time& stamp) {
-  const auto triple = [](const Coordinate& c) {
-    return boost::array<double, 3>{{c.q, c.qd, c.qdd}};
-  };
-  FlightState out;
-  out.header.stamp = stamp;
-  out.header.frame_id = frames::kWorldNed;
-  out.step = step.step;
-  out.t = step.t;
-  out.interface = toMessage(step.interface);
-  const auto& [right, left] = step.angles.wings;
-  out.phi = triple(right.phi);
-  out.psi = triple(right.psi);
-  out.phi_l = triple(left.phi);
-  out.psi_l = triple(left.psi);
-  out.theta_a = triple(step.angles.theta_A);
-  out.rest_angle = step.guided.rest_angle.right;
-  out.rest_angle_l = step.guided.rest_angle.left;
-  out.wind = toVector3(step.guided.wind.v);
-  out.guidance = toMessage(step.guidance);
-  out.loads = toMessage(step.loads.right);
-  out.loads_l = toMessage(step.loads.left);
-  for (int i = 0; i < 3; ++i) out.force[i] = step.force_I[i];
-  out.sub_iterations = static_cast<std::uint32_t>(step.iterations.size());
-  out.retried = step.retried();
-  out.courant = step.fluid.courant;
-  out.divergence = step.fluid.divergence;
-  std::copy(step.wall_s.begin(), step.wall_s.end(), out.wall_s.begin());
-  out.exchange_s = step.exchange_s;
-  out.coupling_s = step.coupling_s;
-  return out;
-}
-
 template <class Message>
 StampedMessage prototype(const char* topic, bool latched = false) {
   return {topic, ros::Time(), Message(), latched};
@@ -149,7 +101,6 @@ FlightMessages::FlightMessages(const Case& c)
     : case_(c),
       path_stride_(stride(c.time, kPathPosesPerFlap)),
       diagnostics_stride_(stride(c.time, kDiagnosticsPerFlap)) {
-  pressure_ = pressureReference(c);
   path_.header.frame_id = frames::kWorld;
 }
 
@@ -166,11 +117,14 @@ std::vector<StampedMessage> FlightMessages::topics() const {
       prototype<nav_msgs::Path>(topics::kPath, true),
       prototype<geometry_msgs::Vector3Stamped>(topics::kWind),
       prototype<geometry_msgs::WrenchStamped>(topics::kRightWrench),
-      prototype<visualization_msgs::MarkerArray>(topics::kPressure, true),
+      prototype<sensor_msgs::PointCloud2>(topics::kRightPressure, true),
       prototype<sensor_msgs::PointCloud2>(topics::kVortices),
       prototype<StepIterations>(topics::kIterations)};
   if (!case_.insect.bare_wing) {
     out.push_back(prototype<geometry_msgs::WrenchStamped>(topics::kLeftWrench));
+  }
+  if (!case_.mirrored) {
+    out.push_back(prototype<sensor_msgs::PointCloud2>(topics::kLeftPressure, true));
   }
   return out;
 }
@@ -201,7 +155,7 @@ std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
   out.push_back({topics::kWind, stamp, wind(step.guided.wind, stamp)});
   out.push_back({topics::kRightWrench, stamp, wrench(step.loads, false, stamp)});
   if (!bare) out.push_back({topics::kLeftWrench, stamp, wrench(step.loads, true, stamp)});
-  out.push_back({topics::kIterations, stamp, iterations(step, stamp)});
+  out.push_back({topics::kIterations, stamp, stepIterations(step, stamp)});
   if (growPath(step, stamp)) out.push_back({topics::kPath, stamp, path_, true});
   if (step.step % diagnostics_stride_ == 0 || step.retried()) {
     out.push_back({topics::kDiagnostics, stamp, diagnostics(step, stamp)});
@@ -230,20 +184,15 @@ bool FlightMessages::growPath(const CommittedStep& step, const ros::Time& stamp)
 
 void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& stamp,
                                  std::vector<StampedMessage>& out) const {
-  const Insect& insect = case_.insect;
-  if (!step.surface.right.facets.empty()) {
-    visualization_msgs::MarkerArray picture = pressureMarkers(
-        step.surface, pressure_, insect.bare_wing, kLift * insect.meanChord(), stamp);
-    const visualization_msgs::MarkerArray legend =
-        pressureLegend(pressure_, insect.wings.right.planform.span(),
-                       baseLinkAttitude(step.interface.body), stamp);
-    picture.markers.insert(picture.markers.end(), legend.markers.begin(), legend.markers.end());
-    out.push_back({topics::kPressure, stamp, std::move(picture), true});
+  for (Side side : case_.sides()) {
+    if (step.surface[side].facets.empty()) continue;
+    const char* topic = side == Side::kLeft ? topics::kLeftPressure : topics::kRightPressure;
+    out.push_back({topic, stamp, pressureCloud(step.surface[side], side, stamp), true});
   }
   const bool flow = case_.fluid == FluidKind::kNavierStokes;
   if (flow && step.step > 0 && due(step.step, case_.output.vortices_every)) {
     out.push_back(
-        {topics::kVortices, stamp, vortexCloud(step.vortices, insect, step.angles, stamp)});
+        {topics::kVortices, stamp, vortexCloud(step.vortices, case_.insect, step.angles, stamp)});
   }
 }
 

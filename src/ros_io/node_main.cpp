@@ -1,5 +1,6 @@
 #include "monarch_flight/ros_io/node_main.h"
 
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <csignal>
@@ -14,6 +15,7 @@
 #include "monarch_flight/ros_io/loopback.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/participant_node.h"
+#include "monarch_flight/ros_io/pressure_view.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/remarks.h"
 #include "monarch_flight/viz/urdf.h"
@@ -107,6 +109,15 @@ int guidanceMain(int argc, char** argv,
                  const std::function<std::unique_ptr<Guidance>(const Case&)>& make) {
   return nodeMain(roleName(Role::kGuidance), argc, argv,
                   [&make] { return ParticipantNode(stop_requested, make).run(); });
+}
+
+int pressureViewMain(int argc, char** argv) {
+  return nodeMain("pressure_view", argc, argv, [] {
+    const PressureView view;
+    while (ros::ok() && !stop_requested)
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
+    return static_cast<int>(kExitComplete);
+  });
 }
 
 int inProcessMain(int argc, char** argv) {

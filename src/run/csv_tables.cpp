@@ -52,7 +52,7 @@ void putSides(std::string& row, const CommittedStep& step) {
   put(row, step.loads.left.force());
   put(row, step.loads.left.moment());
   const BodyState& body = step.interface.body;
-  const Eigen::Vector3d angles = rollPitchYaw(body.R_IB);
+  const Eigen::Vector3d angles = rollPitchYaw(body.R_IB());
   put(row, angles.x());
   put(row, angles.z());
   put(row, body.Omega_B);
@@ -114,7 +114,7 @@ void FlightTable::onCheckpoint(StateVisitor& state) {
 
 void FlightTable::append(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
-  Eigen::Quaterniond q(body.R_IB);
+  Eigen::Quaterniond q(body.q_IB);
   if (q.dot(last_) < 0.0) q.coeffs() *= -1.0;
   last_ = q;
 

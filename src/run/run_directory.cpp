@@ -76,7 +76,7 @@ RunDirectory::~RunDirectory() {
 
 std::uint64_t estimatedOutputBytes(const Case& c) {
   constexpr std::uint64_t kRow = 2400, kIterationRows = 10 * 260, kSmallFiles = 100000;
-  constexpr std::uint64_t kBagStep = 20000, kSurface = 400000, kVortices = 800000;
+  constexpr std::uint64_t kBagStep = 20000, kSurface = 150000, kVortices = 800000;
   constexpr std::uint64_t kFieldCell = 64;  // nine floats and a point of three doubles, packed
   constexpr std::uint64_t kCheckpoints = 3, kStateCell = 72;  // seven fields with their rims
   const std::uint64_t steps = c.time.steps + std::uint64_t{1};
@@ -90,7 +90,8 @@ std::uint64_t estimatedOutputBytes(const Case& c) {
   }
   if (!c.output.record) return bytes;
   bytes += steps * kBagStep;
-  if (c.output.surface_every > 0) bytes += (steps / c.output.surface_every + 1) * kSurface;
+  if (c.output.surface_every > 0)
+    bytes += (steps / c.output.surface_every + 1) * c.sides().count * kSurface;
   if (c.fluid == FluidKind::kNavierStokes && c.output.vortices_every > 0)
     bytes += (steps / c.output.vortices_every + 1) * kVortices;
   return bytes;

@@ -7,7 +7,7 @@
 namespace monarch_flight {
 namespace {
 
-// The doubles of a step as little-endian bytes: 43, and 15 of a left wing of its own.
+// The doubles of a step as little-endian bytes: 38, and 15 of a left wing of its own.
 class Layout {
  public:
   void put(double value) {
@@ -27,7 +27,7 @@ class Layout {
   std::size_t size() const { return size_; }
 
  private:
-  std::array<unsigned char, 58 * 8> bytes_{};
+  std::array<unsigned char, 53 * 8> bytes_{};
   std::size_t size_ = 0;
 };
 
@@ -44,7 +44,8 @@ void StateHash::add(const CommittedStep& step) {
   Layout layout;
   layout.put(step.t);
   for (const auto* v : {&body.x, &body.v, &body.a}) layout.put(*v);
-  for (int i = 0; i < 3; ++i) layout.put(Eigen::Vector3d(body.R_IB.row(i)));
+  const Quaternion& q = body.q_IB;
+  for (double component : {q.w(), q.x(), q.y(), q.z()}) layout.put(component);
   for (const auto* v : {&body.Omega_B, &body.Omega_dot_B}) layout.put(*v);
   layout.put(body.pitch);
   layout.put(step.interface.theta.right);

@@ -60,7 +60,7 @@ void Summary::add(const CommittedStep& step) {
   theta_B_.add(body.pitch.q);
   theta_R_.add(step.interface.theta.right.q);
   theta_L_.add(step.interface.theta.left.q);
-  const double roll = rollPitchYaw(body.R_IB).x();
+  const double roll = rollPitchYaw(body.R_IB()).x();
   roll_.add(roll);
   const bool over = (case_.free[kPitch] && std::abs(body.pitch.q) > kTumbled) ||
                     (case_.free[kRoll] && std::abs(roll) > kTumbled);

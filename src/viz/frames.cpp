@@ -37,7 +37,7 @@ Eigen::Matrix3d nedToEnu() {
 Eigen::Matrix3d frdToFlu() { return Eigen::Vector3d(1, -1, -1).asDiagonal(); }
 
 Eigen::Matrix3d baseLinkAttitude(const BodyState& body) {
-  return nedToEnu() * body.R_IB * frdToFlu();
+  return nedToEnu() * body.R_IB() * frdToFlu();
 }
 
 geometry_msgs::Quaternion toQuaternion(const Eigen::Matrix3d& R) {

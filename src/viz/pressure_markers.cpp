@@ -38,30 +38,15 @@ void addFacet(visualization_msgs::Marker& marker, const SurfacePressure::Facet& 
   marker.colors.insert(marker.colors.end(), {colour, colour});
 }
 
-visualization_msgs::Marker wing(const SurfacePressure& surface, const PressureReference& reference,
-                                bool left, double lift, const ros::Time& stamp) {
-  visualization_msgs::Marker out =
-      blank(left ? frames::kLeftWing : frames::kRightWing, "pressure", left ? 1 : 0,
-            visualization_msgs::Marker::TRIANGLE_LIST, stamp);
-  out.points.reserve(12 * surface.facets.size());
-  out.colors.reserve(4 * surface.facets.size());
-  const double scale = 1.0 / (reference.dynamic * kPressureRange);
-  for (const SurfacePressure::Facet& facet : surface.facets) {
-    const double side = left ? -1.0 : 1.0;
-    addFacet(out, facet, side, -lift, divergingColour(scale * facet.p_upper));
-    addFacet(out, facet, side, lift, divergingColour(scale * facet.p_lower));
-  }
-  return out;
+// At the newest pose of its frame, whatever the time.
+visualization_msgs::Marker ofLegend(int id, int type) {
+  return blank(frames::kLegend, "legend", id, type, ros::Time(0));
 }
 
-// Upright prism of square section in world axes, drawn in base_link; triangles keep their plain
-// colours.
-visualization_msgs::Marker colourBar(const Eigen::Vector3d& foot, double height, double width,
-                                     const Eigen::Matrix3d& R_WB, const ros::Time& stamp) {
+// Upright prism of square section; triangles keep their plain colours.
+visualization_msgs::Marker colourBar(const Eigen::Vector3d& foot, double height, double width) {
   constexpr int kBars = 40;
-  visualization_msgs::Marker bar =
-      blank(frames::kBaseLink, "legend", 0, visualization_msgs::Marker::TRIANGLE_LIST, stamp);
-  bar.pose.orientation = toQuaternion(R_WB.transpose());
+  visualization_msgs::Marker bar = ofLegend(0, visualization_msgs::Marker::TRIANGLE_LIST);
   const auto corner = [&](int side, int level) {
     const double angle = 0.25 * M_PI + 0.5 * M_PI * side, r = width / std::sqrt(2.0);
     const Eigen::Vector3d p(r * std::cos(angle), r * std::sin(angle), height * level / kBars);
@@ -81,31 +66,36 @@ visualization_msgs::Marker colourBar(const Eigen::Vector3d& foot, double height,
 
 }  // namespace
 
-visualization_msgs::MarkerArray pressureMarkers(const PerWing<SurfacePressure>& surface,
-                                                const PressureReference& reference, bool bare_wing,
-                                                double lift, const ros::Time& stamp) {
-  visualization_msgs::MarkerArray out;
-  out.markers.push_back(wing(surface.right, reference, false, lift, stamp));
-  if (!bare_wing) out.markers.push_back(wing(surface.left, reference, true, lift, stamp));
+visualization_msgs::Marker pressureMarker(const SurfacePressure& surface, Side side,
+                                          const PressureReference& reference, double lift,
+                                          const ros::Time& stamp) {
+  const bool left = side == Side::kLeft;
+  visualization_msgs::Marker out =
+      blank(left ? frames::kLeftWing : frames::kRightWing, "pressure", left ? 1 : 0,
+            visualization_msgs::Marker::TRIANGLE_LIST, stamp);
+  out.points.reserve(12 * surface.facets.size());
+  out.colors.reserve(4 * surface.facets.size());
+  const double scale = 1.0 / (reference.dynamic * kPressureRange);
+  const double sign = left ? -1.0 : 1.0;
+  for (const SurfacePressure::Facet& facet : surface.facets) {
+    addFacet(out, facet, sign, -lift, divergingColour(scale * facet.p_upper));
+    addFacet(out, facet, sign, lift, divergingColour(scale * facet.p_lower));
+  }
   return out;
 }
 
-visualization_msgs::MarkerArray pressureLegend(const PressureReference& reference, double span,
-                                               const Eigen::Matrix3d& R_WB,
-                                               const ros::Time& stamp) {
+visualization_msgs::MarkerArray pressureLegend(const PressureReference& reference, double span) {
   constexpr int kNumbers = 5;
   const double height = 0.9 * span;
   // World axes, from the body; to the right for who looks from the east, as rviz/monarch.rviz does.
   const Eigen::Vector3d right(-0.48, 0.88, 0.0);
   const Eigen::Vector3d foot = 1.5 * span * right - 0.5 * span * Eigen::Vector3d::UnitZ();
   visualization_msgs::MarkerArray out;
-  out.markers.push_back(colourBar(foot, height, 0.06 * span, R_WB, stamp));
+  out.markers.push_back(colourBar(foot, height, 0.06 * span));
   const auto write = [&](const char* text, double along, double up) {
-    visualization_msgs::Marker label =
-        blank(frames::kBaseLink, "legend", static_cast<int>(out.markers.size()),
-              visualization_msgs::Marker::TEXT_VIEW_FACING, stamp);
-    label.pose.position =
-        toPoint(R_WB.transpose() * (foot + along * right + up * Eigen::Vector3d::UnitZ()));
+    visualization_msgs::Marker label = ofLegend(static_cast<int>(out.markers.size()),
+                                                visualization_msgs::Marker::TEXT_VIEW_FACING);
+    label.pose.position = toPoint(foot + along * right + up * Eigen::Vector3d::UnitZ());
     label.scale.z = 0.09 * span;
     label.text = text;
     out.markers.push_back(label);

@@ -7,6 +7,7 @@
 
 #include "monarch_flight/viz/colours.h"
 #include "monarch_flight/viz/frames.h"
+#include "viz/float_cloud.h"
 
 namespace monarch_flight {
 namespace {
@@ -25,18 +26,6 @@ float packed(const std_msgs::ColorRGBA& colour) {
 sensor_msgs::PointCloud2 vortexCloud(const PerWing<std::vector<VortexPoint>>& points,
                                      const Insect& insect, const JointAngles& angles,
                                      const ros::Time& stamp) {
-  static const char* const kFields[] = {"x", "y", "z", "rgb", "q", "omega_y"};
-  sensor_msgs::PointCloud2 cloud;
-  cloud.header.stamp = stamp;
-  cloud.header.frame_id = frames::kBaseLink;
-  for (std::uint32_t i = 0; i < 6; ++i) {
-    sensor_msgs::PointField field;
-    field.name = kFields[i];
-    field.offset = 4 * i;
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    cloud.fields.push_back(field);
-  }
   const Sides sides{insect.bare_wing ? 1U : 2U};
   std::size_t count = 0;
   float largest = 0.0f;
@@ -44,13 +33,8 @@ sensor_msgs::PointCloud2 vortexCloud(const PerWing<std::vector<VortexPoint>>& po
     count += points[side].size();
     for (const VortexPoint& p : points[side]) largest = std::max(largest, std::abs(p.omega_y));
   }
-  cloud.height = 1;
-  cloud.width = static_cast<std::uint32_t>(count);
-  cloud.point_step = 24;
-  cloud.row_step = cloud.point_step * cloud.width;
-  cloud.is_dense = true;
-  cloud.data.resize(cloud.row_step);
-
+  sensor_msgs::PointCloud2 cloud =
+      floatCloud({"x", "y", "z", "rgb", "q", "omega_y"}, count, frames::kBaseLink, stamp);
   std::uint8_t* out = cloud.data.data();
   for (Side side : sides) {
     // In the mirror the left wing is a right one.

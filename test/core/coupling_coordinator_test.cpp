@@ -114,7 +114,7 @@ TEST_F(Coordination, OnlyWhatIsFreeMoves) {
   const CommittedStep& last = partly.sink.steps.back();
   const Interface prescribed = f_.prescribed(last.t);
   EXPECT_EQ(last.interface.body.x.x(), prescribed.body.x.x());
-  EXPECT_EQ(last.interface.body.R_IB, prescribed.body.R_IB);
+  EXPECT_EQ(last.interface.body.R_IB(), prescribed.body.R_IB());
   EXPECT_NE(last.interface.body.x.z(), prescribed.body.x.z());
   EXPECT_NE(last.interface.theta.right.q, prescribed.theta.right.q);
   for (const IterationRecord& record : last.iterations) {
@@ -126,7 +126,7 @@ TEST_F(Coordination, OnlyWhatIsFreeMoves) {
 TEST_F(Coordination, ForceIsThatOfBothWingsInInertialAxes) {
   ASSERT_TRUE(f_.run().complete);
   const CommittedStep& step = f_.sink.steps.back();
-  const Eigen::Matrix3d R_IB = step.interface.body.R_IB;
+  const Eigen::Matrix3d R_IB = step.interface.body.R_IB();
   const Eigen::Vector3d right =
       wingAttitude(Side::kRight, f_.model.insect.beta, step.angles.wings.right) *
       step.loads.right.force();

@@ -37,7 +37,7 @@ InsectMotion motionAt(double t) {
     body.v(i) = c.qd;
     body.a(i) = c.qdd;
   }
-  body.R_IB = wingAttitude(Side::kRight, 0.3, attitude);
+  body.q_IB = wingAttitude(Side::kRight, 0.3, attitude);
   body.Omega_B = wingRate(attitude);
   body.Omega_dot_B = wingRateDerivative(attitude);
   const WingAngles right = wingAt(t, 0.1), left = wingAt(t, -1.2), abdomen = wingAt(t, 2.2);
@@ -135,7 +135,7 @@ TEST_P(Dynamics, MomentRowsAreTheRateOfAngularMomentum) {
       [&](double s) -> Vector3d { return dynamics_.angularMomentum(motionAt(s)); }, t_);
   const Vector15d force = dynamics_.inertialForce(motion_);
   const Vector3d moment =
-      motion_.body.x.cross(force.head<3>()) + motion_.body.R_IB * force.segment<3>(3);
+      motion_.body.x.cross(force.head<3>()) + motion_.body.R_IB() * force.segment<3>(3);
   EXPECT_LT((moment - rate).norm(), 1e-12 * rate.norm());
 }
 
@@ -147,9 +147,11 @@ TEST_P(Dynamics, JointRowsAreTheAppendagesOwnMoments) {
   const Vector15d force = dynamics_.inertialForce(motion_);
   for (std::size_t i = 0; i < 3; ++i) {
     const Appendage& part = parts[i];
-    auto R = [&](double s) -> Matrix3d { return motionAt(s).body.R_IB * motionAt(s).joints[i].Q; };
+    auto R = [&](double s) -> Matrix3d {
+      return motionAt(s).body.R_IB() * motionAt(s).joints[i].Q;
+    };
     auto joint = [&](double s) -> Vector3d {
-      return motionAt(s).body.x + motionAt(s).body.R_IB * part.mu;
+      return motionAt(s).body.x + motionAt(s).body.R_IB() * part.mu;
     };
     auto spin = [&](double s) -> Vector3d {  // J w, inertial axes
       const InsectMotion m = motionAt(s);
@@ -182,9 +184,9 @@ TEST_P(Dynamics, PowerOfTheAirIsThatOfForcesAtTheJointsAndMoments) {
     const Loads& loads = i == 0 ? right : left;
     const Vector3d mu = i == 0 ? insect.wings.right.plate.mu : mirrored(insect.wings.left.plate).mu;
     const JointState& joint = motion_.joints[i];
-    const Vector3d v_I = motion_.body.v + motion_.body.R_IB * motion_.body.Omega_B.cross(mu);
+    const Vector3d v_I = motion_.body.v + motion_.body.R_IB() * motion_.body.Omega_B.cross(mu);
     const Vector3d w = joint.Omega + joint.Q.transpose() * motion_.body.Omega_B;
-    power += (motion_.body.R_IB * (joint.Q * loads.force())).dot(v_I) + loads.moment().dot(w);
+    power += (motion_.body.R_IB() * (joint.Q * loads.force())).dot(v_I) + loads.moment().dot(w);
   }
   const Vector15d force = dynamics_.airForce(motion_, both);
   EXPECT_NEAR(xi_.dot(force), power, 1e-13 * force.norm() * xi_.norm());

@@ -90,7 +90,7 @@ TEST(FlightSolver, PrescribedCoordinatesAreTakenFromTheMotion) {
   const BodyState next = solver.step(n, prescribed, prescribed, angles, both(random.loads()));
   EXPECT_EQ(next.x.x(), prescribed.x.x());
   EXPECT_EQ(next.x.y(), prescribed.x.y());
-  EXPECT_EQ(next.R_IB, prescribed.R_IB);
+  EXPECT_EQ(next.R_IB(), prescribed.R_IB());
   EXPECT_EQ(next.Omega_dot_B, prescribed.Omega_dot_B);
   const Coordinate z = newmark.advance({n.x.z(), n.v.z(), n.a.z()}, next.a.z());
   EXPECT_EQ(next.x.z(), z.q);
@@ -106,7 +106,7 @@ TEST(FlightSolver, RefusesWhatItCannotDo) {
 
   const FlightSolver solver(testing::largeMonarch(), kGravity, kBodyFree, Newmark());
   BodyState rolled;
-  rolled.R_IB = rotationX(0.1);
+  rolled.q_IB = rotationX(0.1);
   EXPECT_THROW(solver.step(rolled, rolled, rolled, JointAngles(), kNoAir), InputError);
 
   Insect massless = testing::largeMonarch();

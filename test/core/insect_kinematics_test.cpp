@@ -57,7 +57,7 @@ BodyState Motion::body(double t) const {
   b.x << x.at(t).q, y.at(t).q, z.at(t).q;
   b.v << x.at(t).qd, y.at(t).qd, z.at(t).qd;
   b.a << x.at(t).qdd, y.at(t).qdd, z.at(t).qdd;
-  b.R_IB = attitude(t);
+  b.q_IB = attitude(t);
   b.Omega_B = Omega(t);
   b.Omega_dot_B = difference<Eigen::Vector3d>(
       [this](double s) -> Eigen::Vector3d { return Omega(s); }, t, 1e-3);
@@ -143,8 +143,8 @@ TEST(Kinematics, MotionOfTheLeftWingIsSeenInAMirror) {
     angles.wings.left = m.wing(0.3);
     const BodyState body = m.body(0.3);
     const WingMotion seen = wingMotion(Side::kLeft, insect, body, angles);
-    const Eigen::Vector3d root = body.x + body.R_IB * mirrored(insect.wings.left.plate).mu;
-    const Eigen::Matrix3d R = body.R_IB * wingAttitude(Side::kLeft, 0.44, angles.wings.left);
+    const Eigen::Vector3d root = body.x + body.R_IB() * mirrored(insect.wings.left.plate).mu;
+    const Eigen::Matrix3d R = body.R_IB() * wingAttitude(Side::kLeft, 0.44, angles.wings.left);
     EXPECT_LT((seen.r_I - mirror * root).norm(), 1e-15);
     EXPECT_LT((seen.R_IW - mirror * R * mirror).norm(), 1e-14);
   }
@@ -172,7 +172,7 @@ TEST(Kinematics, WithPitchSetsAttitudeAndRates) {
   BodyState body;
   body.v << 1, 2, 3;
   const BodyState b = withPitch(body, {0.3, 2.0, -5.0});
-  EXPECT_LT((b.R_IB - rotationY(0.3)).norm(), 1e-15);
+  EXPECT_LT((b.R_IB() - rotationY(0.3)).norm(), 1e-15);
   EXPECT_EQ(b.Omega_B, Eigen::Vector3d(0, 2, 0));
   EXPECT_EQ(b.Omega_dot_B, Eigen::Vector3d(0, -5, 0));
   EXPECT_EQ(b.pitch.q, 0.3);

@@ -60,7 +60,7 @@ TEST(Fourier, MotionMovesBodyAndPitches) {
   EXPECT_EQ(state.body.v, s.velocity);
   EXPECT_EQ(state.body.a, Eigen::Vector3d::Zero());
   EXPECT_NEAR(state.body.pitch.q, 0.5, 1e-15);
-  EXPECT_LT((state.body.R_IB - rotationY(0.5)).norm(), 1e-15);
+  EXPECT_LT((state.body.R_IB() - rotationY(0.5)).norm(), 1e-15);
   EXPECT_NEAR(state.body.Omega_dot_B.y(), -0.2 * std::pow(20.0 * M_PI, 2), 1e-9);
   EXPECT_NEAR(state.angles.wings.right.phi.q, 0.1, 1e-15);
 }
@@ -85,7 +85,7 @@ TEST(Start, ExplicitCoordinatesLeaveAtAConstantRate) {
   EXPECT_EQ(at.body.pitch.q, base->at(0.6).body.pitch.q);
   start.pitch = StartValue{0.2, 1.0};
   const PrescribedState pitched = StartMotion(base, start, 0.5).at(0.6);
-  EXPECT_LT((pitched.body.R_IB - rotationY(0.3)).norm(), 1e-15);
+  EXPECT_LT((pitched.body.R_IB() - rotationY(0.3)).norm(), 1e-15);
   EXPECT_EQ(pitched.body.Omega_B.y(), 1.0);
   EXPECT_EQ(pitched.body.Omega_dot_B.y(), 0.0);
 }
@@ -129,7 +129,7 @@ std::array<double, 6> tumbleErrors(int n) {
     const std::array<double, 6> errors{(b.x - Tumble::x(t)).norm(),
                                        (b.v - v).norm(),
                                        (b.a - a).norm(),
-                                       (b.R_IB - Tumble::R(t)).norm(),
+                                       (b.R_IB() - Tumble::R(t)).norm(),
                                        (b.Omega_B - Tumble::omega(t)).norm(),
                                        (b.Omega_dot_B - alpha).norm()};
     for (int k = 0; k < 6; ++k) worst[k] = std::max(worst[k], errors[k]);
@@ -160,14 +160,14 @@ TEST(Table, DerivativesAreThoseOfTheInterpolatedMotion) {
     const Eigen::Vector3d a =
         difference<Eigen::Vector3d>([&](double s) -> Eigen::Vector3d { return body(s).v; }, t, h);
     const Eigen::Matrix3d Rd = difference<Eigen::Matrix3d>(
-        [&](double s) -> Eigen::Matrix3d { return body(s).R_IB; }, t, h);
+        [&](double s) -> Eigen::Matrix3d { return body(s).R_IB(); }, t, h);
     const Eigen::Vector3d Od = difference<Eigen::Vector3d>(
         [&](double s) -> Eigen::Vector3d { return body(s).Omega_B; }, t, h);
     EXPECT_LT((b.v - v).norm(), 1e-9);
     EXPECT_LT((b.a - a).norm(), 1e-8);
-    EXPECT_LT((b.R_IB.transpose() * Rd - hat(b.Omega_B)).norm(), 1e-8);
+    EXPECT_LT((b.R_IB().transpose() * Rd - hat(b.Omega_B)).norm(), 1e-8);
     EXPECT_LT((b.Omega_dot_B - Od).norm(), 1e-7);
-    EXPECT_NEAR(b.pitch.q, std::asin(-b.R_IB(2, 0)), 1e-14);
+    EXPECT_NEAR(b.pitch.q, std::asin(-b.R_IB()(2, 0)), 1e-14);
     const double qd = difference<double>([&](double s) { return body(s).pitch.q; }, t, h);
     const double qdd = difference<double>([&](double s) { return body(s).pitch.qd; }, t, h);
     EXPECT_NEAR(b.pitch.qd, qd, 1e-7);
@@ -281,12 +281,12 @@ TEST(Start, AnglesOfABodyThatLeavesItsPlaneHaveTheRatesThatItSays) {
     return withAngles(BodyState(), roll.at(t), pitch.at(t), yaw.at(t));
   };
   const BodyState body = at(0.1);
-  const std::function<Eigen::Matrix3d(double)> attitude = [&at](double t) { return at(t).R_IB; };
+  const std::function<Eigen::Matrix3d(double)> attitude = [&at](double t) { return at(t).R_IB(); };
   const std::function<Eigen::Vector3d(double)> rate = [&at](double t) { return at(t).Omega_B; };
   const Eigen::Matrix3d R_dot = difference(attitude, 0.1, 1e-3);
-  EXPECT_LT((vee(body.R_IB.transpose() * R_dot) - body.Omega_B).norm(), 1e-9);
+  EXPECT_LT((vee(body.R_IB().transpose() * R_dot) - body.Omega_B).norm(), 1e-9);
   EXPECT_LT((difference(rate, 0.1, 1e-3) - body.Omega_dot_B).norm(), 1e-8);
-  EXPECT_LT((rollPitchYaw(body.R_IB) - Eigen::Vector3d(0.475, 0.57, -0.77)).norm(), 1e-12);
+  EXPECT_LT((rollPitchYaw(body.R_IB()) - Eigen::Vector3d(0.475, 0.57, -0.77)).norm(), 1e-12);
 }
 
 }  // namespace

@@ -58,6 +58,19 @@ TEST(Rotation, ExpIsOrthonormalAtEveryAngle) {
   }
 }
 
+TEST(Rotation, QuaternionsAreThoseOfTheMatrices) {
+  std::mt19937 engine(5);
+  for (double angle : {0.0, 1e-9, 0.9e-4, 1.1e-4, 0.3, 3.0, 6.0}) {
+    const Vector3d a = angle * randomAxis(engine);
+    const Quaternion q = expQuaternion(a);
+    EXPECT_NEAR(q.norm(), 1.0, kRound) << angle;
+    EXPECT_LT((rotationOf(q) - expSO3(a)).norm(), 3e-15) << angle;
+    EXPECT_LT((rotationOf(quaternionX(angle)) - rotationX(angle)).norm(), 3e-15) << angle;
+    EXPECT_LT((rotationOf(quaternionY(angle)) - rotationY(angle)).norm(), 3e-15) << angle;
+    EXPECT_LT((rotationOf(quaternionZ(angle)) - rotationZ(angle)).norm(), 3e-15) << angle;
+  }
+}
+
 TEST(Rotation, LogInvertsExpAtEveryAngle) {
   std::mt19937 engine(2);
   for (double angle :

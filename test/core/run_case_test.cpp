@@ -97,7 +97,7 @@ TEST_F(CaseTest, TablesAreEmbeddedAndRoundTrip) {
   const Case c = loadCase(path, {}, CONFIG_DIR);
   EXPECT_EQ(c.time.steps, 50u);
   const BodyState body = c.motion->at(0.5).body;
-  EXPECT_LT((body.R_IB - rotationY(0.2 * std::sin(0.5))).norm(), 1e-12);
+  EXPECT_LT((body.R_IB() - rotationY(0.2 * std::sin(0.5))).norm(), 1e-12);
   EXPECT_NEAR(body.Omega_B.y(), 0.2 * std::cos(0.5), 1e-10);
   EXPECT_NEAR(body.v.x(), 1.0, 1e-12);
   fs::remove(folder_ / "flight.csv");  // the resolved case stands alone

@@ -170,7 +170,7 @@ TEST(Federation, ImpulseOfAirAndWeightIsTheChangeOfMomentum) {
     const auto add = [&](const Appendage& a, const Eigen::Matrix3d& Q,
                          const Eigen::Vector3d& rate) {
       const Eigen::Vector3d relative = Q * rate.cross(a.nu);  // F_B
-      p += a.m * (b.v + b.R_IB * (b.Omega_B.cross(a.mu + Q * a.nu) + relative));
+      p += a.m * (b.v + b.R_IB() * (b.Omega_B.cross(a.mu + Q * a.nu) + relative));
     };
     const auto& [right, left] = s.angles.wings;
     const Eigen::Vector3d w = wingRate(left);

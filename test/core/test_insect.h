@@ -92,7 +92,7 @@ class Random {
     body.x = vector();
     body.v = vector();
     body.a = vector();
-    body.R_IB = wingAttitude(Side::kRight, 0.0, attitude);
+    body.q_IB = wingAttitude(Side::kRight, 0.0, attitude);
     body.Omega_B = wingRate(attitude);
     body.Omega_dot_B = wingRateDerivative(attitude);
     return body;

@@ -26,7 +26,7 @@ double printedEquation(const Insect& insect, const BodyState& body, const JointA
   const Matrix3d Q_t = wingAttitude(Side::kRight, insect.beta, own).transpose();
   const Vector3d rate = wingRate(own), n = Q_t * e2, W = rate + w * n;
   const Vector3d& mu = wing.mu;
-  const Vector3d a = Q_t * (body.R_IB.transpose() * (body.a - kGravity * e3) +
+  const Vector3d a = Q_t * (body.R_IB().transpose() * (body.a - kGravity * e3) +
                             w_dot * e2.cross(mu) + w * w * e2.cross(e2.cross(mu)));
   const double W_x_dot = phi.qdd * cp * ct - phi.qd * psi.qd * sp * ct -
                          phi.qd * theta.qd * cp * st + psi.qdd * st + psi.qd * theta.qd * ct +
@@ -103,7 +103,7 @@ class Pendulum : public ::testing::Test {
     insect_.bare_wing = true;
     insect_.beta = 0.0;
     for (Side side : kSides) insect_.wings[side].theta_0 = 0.3;
-    body_.R_IB << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // y of the wing points along z of NED: no weight
+    body_.q_IB = quaternionX(0.5 * M_PI);  // y of the wing points along z of NED: no weight
   }
   const Wing& wing() const { return insect_.wings.right; }
   double period() const { return 2.0 * M_PI * std::sqrt(wing().plate.J(1, 1) / wing().kappa); }

@@ -6,7 +6,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "examples"))
-from monarch_flight.msg import JointMotion, PrescribedLevel  # noqa: E402
+from monarch_flight.msg import JointMotion, PrescribedLevel, WingJoints  # noqa: E402
 from solver_node import SolverNode  # noqa: E402
 
 
@@ -23,22 +23,19 @@ class Recorded:
         if request.key.step == self.step:
             if self.fault == "error":
                 raise RuntimeError("this level is meant to go wrong")
-            level.phi.velocity = float("nan")
+            level.right_wing.phi.velocity = float("nan")
         return level
 
     def level(self, step):
         row = self.rows[step]
 
         def joint(name):
-            return [row[name], row[name + "_dot"], row[name + "_ddot"]]
+            return JointMotion(row[name], row[name + "_dot"], row[name + "_ddot"])
 
-        level = PrescribedLevel(phi=JointMotion(*joint("phi")), psi=JointMotion(*joint("psi")),
-                                phi_l=JointMotion(*joint("phi_L")), psi_l=JointMotion(*joint("psi_L")),
-                                theta_a=JointMotion(*joint("theta_A")),
-                                rest_angle=row["rest_angle"], rest_angle_l=row["rest_angle_L"])
-        level.interface.theta_r = joint("theta_R")
-        level.interface.theta_l = joint("theta_L")
-        return level
+        return PrescribedLevel(
+            right_wing=WingJoints(joint("phi"), joint("psi"), joint("theta_R"), row["rest_angle"]),
+            left_wing=WingJoints(joint("phi_L"), joint("psi_L"), joint("theta_L"), row["rest_angle_L"]),
+            theta_a=joint("theta_A"))
 
 
 if __name__ == "__main__":

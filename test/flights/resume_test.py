@@ -22,7 +22,7 @@ def messages(folder):
             if topic == "/diagnostics":
                 continue
             if topic == "/monarch_flight/state":
-                message.wall_s, message.exchange_s, message.coupling_s = 5 * (0.0,), 0.0, 0.0
+                message.computing, message.exchange_s, message.coupling_s = None, 0.0, 0.0
             for row in message.rows if topic == "/monarch_flight/iterations" else ():
                 row.fluid_wall_s = 0.0
             rows.append((topic, t.to_nsec(), message))

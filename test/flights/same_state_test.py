@@ -25,8 +25,8 @@ COLUMNS += LEFT + "roll yaw p q r".split()
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/joint_states", "/diagnostics", "/monarch_flight/case",
     "/monarch_flight/state", "/monarch_flight/odom", "/monarch_flight/path",
-    "/monarch_flight/wind", "/monarch_flight/wrench/right_wing", "/monarch_flight/wrench/left_wing",
-    "/monarch_flight/wing_pressure", "/monarch_flight/iterations"}
+    "/monarch_flight/wind", "/monarch_flight/right_wing/wrench", "/monarch_flight/left_wing/wrench",
+    "/monarch_flight/right_wing/pressure", "/monarch_flight/iterations"}
 FILES = ["case.yaml", "checkpoints", "flight.bag", "flight.csv", "iterations.csv", "summary.json"]
 RESIDUALS = "x y z roll theta_B yaw theta_R theta_L".split()
 STEPS, PRESCRIBED, TOLERANCE = 500, 10, 1e-8

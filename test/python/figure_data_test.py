@@ -35,13 +35,19 @@ class Forces(unittest.TestCase):
         np.testing.assert_allclose(lift, 0.02 * math.cos(0.3), atol=1e-9)
 
 
+OTHERS = {"std_msgs/Header": "uint32 seq\ntime stamp\nstring frame_id",
+          "geometry_msgs/Vector3": "float64 x\nfloat64 y\nfloat64 z",
+          "geometry_msgs/Point": "float64 x\nfloat64 y\nfloat64 z",
+          "geometry_msgs/Quaternion": "float64 x\nfloat64 y\nfloat64 z\nfloat64 w",
+          "geometry_msgs/Wrench": "Vector3 force\nVector3 torque"}
+
+
 def message_text(name):
     """Definition of one of our messages with those of its parts, as a bag holds it."""
-    text, parts = (ROOT / f"msg/{name}.msg").read_text(encoding="utf-8"), ""
-    for part in ("InterfaceState", "WingLoads", "GuidanceState", "WingbeatCommand"):
-        parts += "\n" + "=" * 80 + f"\nMSG: monarch_flight/{part}\n" + (ROOT / f"msg/{part}.msg").read_text(encoding="utf-8")
-    return text + "\n" + "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n" + (
-        "=" * 80 + "\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n") + parts
+    ours = ("BodyMotion", "WingJoints", "JointMotion", "WingLoads", "RoleTimes", "GuidanceState", "WingbeatCommand")
+    parts = {f"monarch_flight/{part}": (ROOT / f"msg/{part}.msg").read_text(encoding="utf-8") for part in ours}
+    return (ROOT / f"msg/{name}.msg").read_text(encoding="utf-8") + "".join(
+        f"\n{'=' * 80}\nMSG: {part}\n{text}" for part, text in {**OTHERS, **parts}.items())
 
 
 class Runs(unittest.TestCase):
@@ -63,8 +69,8 @@ class Runs(unittest.TestCase):
             with rosbag.Bag(str(folder / "flight.bag"), "w") as bag:
                 for n in range(5):
                     m = State()
-                    m.t, m.interface.position[0], m.interface.position[2] = 0.1 * n, 1.0 * n, -2.0 * n
-                    m.interface.theta_b[0], m.interface.theta_r[0], m.force[2] = 0.3, -0.1 * n, -4e-3
+                    m.t, m.body.position.x, m.body.position.z = 0.1 * n, 1.0 * n, -2.0 * n
+                    m.body.pitch.position, m.right_wing.theta.position, m.force.z = 0.3, -0.1 * n, -4e-3
                     bag.write("/monarch_flight/state", m)
             flight = data.flight(folder)
         np.testing.assert_allclose(flight["z"], [0, -2, -4, -6, -8])

@@ -157,15 +157,15 @@ inline void Attacker<ParticipantRequest>::sendMalformed(ParticipantRequest& mess
 template <>
 inline void Attacker<ParticipantReply>::sendMalformed(ParticipantReply& message, Sent& sent) {
   ++sent.malformed;
-  message.load_operator.assign(1 + random_() % 70, 1.0);
+  message.load_operator.resize(2 + random_() % 70);
   publishSealed(message);
 }
 
 template <class Message>
 void Attacker<Message>::spoil(Message& message, double value) {
-  message.interface.position.assign(value);
-  message.interface.theta_r.assign(-value);
-  message.loads.force_pressure.assign(value);
+  geometry_msgs::Point& position = message.interface.body.position;
+  position.x = position.y = position.z = value;
+  message.interface.theta_right.position = -value;
 }
 template <>
 inline void Attacker<Hello>::spoil(Hello& message, double) {
@@ -174,7 +174,7 @@ inline void Attacker<Hello>::spoil(Hello& message, double) {
 
 template <class Message>
 void Attacker<Message>::inflate(Message& message) {
-  message.interface.velocity.assign(std::numeric_limits<double>::max());
+  message.interface.body.velocity.x = std::numeric_limits<double>::max();
 }
 template <>
 inline void Attacker<Hello>::inflate(Hello& message) {

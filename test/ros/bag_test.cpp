@@ -8,11 +8,14 @@
 #include <sys/resource.h>
 #include <tf2/buffer_core.h>
 
+#include <cstring>
 #include <map>
 
-#include "monarch_flight/ros_io/conversions.h"
 #include "monarch_flight/ros_io/flight_messages.h"
+#include "monarch_flight/ros_io/state_conversions.h"
+#include "monarch_flight/run/federation.h"
 #include "monarch_flight/viz/frames.h"
+#include "monarch_flight/viz/pressure_cloud.h"
 #include "ros/process.h"
 
 namespace monarch_flight {
@@ -68,7 +71,7 @@ TEST_F(Bag, HoldsEveryTopicAsOftenAsExpected) {
   expected[topics::kCase] = 1;
   expected[topics::kPath] = 16;         // a pose in 240 / 32 = 7.5 -> 8 steps: 0, 8, .. 120
   expected[topics::kDiagnostics] = 11;  // every 12 steps: 0, 12, .. 120
-  expected[topics::kPressure] = kSteps / insect->output.surface_every;
+  expected[topics::kRightPressure] = kSteps / insect->output.surface_every;
   EXPECT_EQ(expected, count);
 }
 
@@ -101,14 +104,11 @@ TEST_F(Bag, TheTfTreeAloneGivesTheWings) {
   const auto states = all<FlightState>(topics::kState);
   ASSERT_EQ(kSteps + 1u, states.size());
   for (const auto& state : states) {
-    const auto triple = [](const boost::array<double, 3>& a) {
-      return Coordinate{a[0], a[1], a[2]};
-    };
-    const Interface interface = fromMessage(state->interface);
-    const JointAngles angles{{{triple(state->phi), triple(state->psi), interface.theta.right},
-                              {triple(state->phi_l), triple(state->psi_l), interface.theta.left}},
-                             triple(state->theta_a)};
-    const WingMotion wing = wingMotion(Side::kRight, insect->insect, interface.body, angles);
+    const JointAngles angles{
+        {fromMessage(state->right_wing), fromMessage(state->left_wing)},
+        {state->theta_a.position, state->theta_a.velocity, state->theta_a.acceleration}};
+    const WingMotion wing =
+        wingMotion(Side::kRight, insect->insect, fromMessage(state->body), angles);
     const auto tf =
         buffer.lookupTransform("world_ned", "right_wing", state->header.stamp).transform;
     const Eigen::Quaterniond q(tf.rotation.w, tf.rotation.x, tf.rotation.y, tf.rotation.z);
@@ -136,18 +136,18 @@ TEST_F(Bag, OdometryIsTheStateInEastNorthUp) {
   const auto states = all<FlightState>(topics::kState);
   const auto odometry = all<nav_msgs::Odometry>(topics::kOdometry);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const Interface s = fromMessage(states[i]->interface);
+    const BodyState s = fromMessage(states[i]->body);
     const auto& o = *odometry[i];
     EXPECT_EQ("world", o.header.frame_id);
     EXPECT_EQ("base_link", o.child_frame_id);
-    EXPECT_EQ(s.body.x.y(), o.pose.pose.position.x);
-    EXPECT_EQ(s.body.x.x(), o.pose.pose.position.y);
-    EXPECT_EQ(-s.body.x.z(), o.pose.pose.position.z);
+    EXPECT_EQ(s.x.y(), o.pose.pose.position.x);
+    EXPECT_EQ(s.x.x(), o.pose.pose.position.y);
+    EXPECT_EQ(-s.x.z(), o.pose.pose.position.z);
     const Eigen::Quaterniond q(o.pose.pose.orientation.w, o.pose.pose.orientation.x,
                                o.pose.pose.orientation.y, o.pose.pose.orientation.z);
     const Eigen::Vector3d v(o.twist.twist.linear.x, o.twist.twist.linear.y, o.twist.twist.linear.z);
-    EXPECT_LT((q * v - nedToEnu() * s.body.v).norm(), 1e-12);
-    EXPECT_EQ(-s.body.Omega_B.y(), o.twist.twist.angular.y);  // nose down about left, positive
+    EXPECT_LT((q * v - nedToEnu() * s.v).norm(), 1e-12);
+    EXPECT_EQ(-s.Omega_B.y(), o.twist.twist.angular.y);  // nose down about left, positive
   }
 }
 
@@ -156,10 +156,9 @@ TEST_F(Bag, TheTwoWrenchesTogetherAreTheForce) {
   const auto right = all<geometry_msgs::WrenchStamped>(topics::kRightWrench);
   const auto left = all<geometry_msgs::WrenchStamped>(topics::kLeftWrench);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const Interface s = fromMessage(states[i]->interface);
+    const BodyState s = fromMessage(states[i]->body);
     const FlightState& m = *states[i];
-    const WingAngles ours{{m.phi[0], 0, 0}, {m.psi[0], 0, 0}, s.theta.right};
-    const WingAngles theirs{{m.phi_l[0], 0, 0}, {m.psi_l[0], 0, 0}, s.theta.left};
+    const WingAngles ours = fromMessage(m.right_wing), theirs = fromMessage(m.left_wing);
     const double beta = insect->insect.beta;
     const auto vector = [](const geometry_msgs::Vector3& v) {
       return Eigen::Vector3d(v.x, v.y, v.z);
@@ -167,9 +166,9 @@ TEST_F(Bag, TheTwoWrenchesTogetherAreTheForce) {
     EXPECT_EQ("right_wing", right[i]->header.frame_id);
     EXPECT_EQ("left_wing", left[i]->header.frame_id);
     const Eigen::Vector3d force =
-        s.body.R_IB * (wingAttitude(Side::kRight, beta, ours) * vector(right[i]->wrench.force) +
-                       wingAttitude(Side::kLeft, beta, theirs) * vector(left[i]->wrench.force));
-    const Eigen::Vector3d recorded(states[i]->force[0], states[i]->force[1], states[i]->force[2]);
+        s.R_IB() * (wingAttitude(Side::kRight, beta, ours) * vector(right[i]->wrench.force) +
+                    wingAttitude(Side::kLeft, beta, theirs) * vector(left[i]->wrench.force));
+    const Eigen::Vector3d recorded = vector(m.force);
     EXPECT_LT((force - recorded).norm(), 1e-12 * (1e-3 + recorded.norm()));
     EXPECT_EQ(right[i]->wrench.torque.y, left[i]->wrench.torque.y);
     EXPECT_EQ(right[i]->wrench.torque.x, -left[i]->wrench.torque.x);
@@ -193,24 +192,33 @@ TEST_F(Bag, TheIterationTableHasEverySubIteration) {
   EXPECT_EQ(rows + 1, static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')));
 }
 
-TEST_F(Bag, PressureMarkersAreTrianglesOnBothWingsWithALegend) {
-  for (const auto& picture : all<visualization_msgs::MarkerArray>(topics::kPressure)) {
-    std::map<std::string, const visualization_msgs::Marker*> wings;
-    int numbers = 0;
-    for (const auto& marker : picture->markers) {
-      if (marker.ns == "pressure") wings[marker.header.frame_id] = &marker;
-      if (marker.type == visualization_msgs::Marker::TEXT_VIEW_FACING) ++numbers;
-    }
-    ASSERT_EQ(2u, wings.size());
-    const auto &right = *wings["right_wing"], &left = *wings["left_wing"];
-    ASSERT_GT(right.points.size(), 100u);
-    ASSERT_EQ(right.points.size(), 3 * right.colors.size());
-    ASSERT_EQ(right.points.size(), left.points.size());
-    for (std::size_t i = 0; i < right.points.size(); ++i) {
-      EXPECT_EQ(right.points[i].x, left.points[i].x);
-      EXPECT_EQ(right.points[i].y, -left.points[i].y);
-    }
-    EXPECT_EQ(6, numbers);  // five numbers and the title
+struct Surfaces : StepSink {
+  std::vector<CommittedStep> steps;  // with a picture
+  void onStep(const CommittedStep& step) override {
+    if (!step.surface.right.facets.empty()) steps.push_back(step);
+  }
+  void onReset() override {}
+  void onEnd(const std::string& failure) override { EXPECT_EQ("", failure); }
+};
+
+TEST_F(Bag, HoldsThePressureOfTheSolver) {
+  const Case c = loadCase("climb_printed",
+                          {{"fluid", "quasi_steady"}, {"steps_per_flap", "240"}, {"flaps", "0.5"}},
+                          CONFIG_DIR);
+  Surfaces flown;
+  const StopFlag stop{false};
+  InProcessFederation(c).run(1, {&flown}, stop);
+  const auto clouds = all<sensor_msgs::PointCloud2>(topics::kRightPressure);
+  ASSERT_EQ(flown.steps.size(), clouds.size());
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    EXPECT_EQ("right_wing", clouds[i]->header.frame_id);
+    EXPECT_EQ(stampOf(flown.steps[i].step, c.time), clouds[i]->header.stamp);
+    const auto recorded = surfacePressure(*clouds[i], Side::kRight);
+    const auto& solved = flown.steps[i].surface.right.facets;
+    ASSERT_TRUE(recorded);
+    ASSERT_EQ(solved.size(), recorded->facets.size());
+    EXPECT_EQ(0, std::memcmp(solved.data(), recorded->facets.data(),
+                             solved.size() * sizeof(SurfacePressure::Facet)));
   }
 }
 
@@ -224,7 +232,7 @@ TEST_F(Bag, TheCaseIsTheFileAndStaticTopicsAreLatched) {
     const auto found = connection->header->find("latching");
     if (found != connection->header->end() && found->second == "1") ++latched;
   }
-  EXPECT_EQ(4, latched);  // tf_static, case, path, wing_pressure
+  EXPECT_EQ(4, latched);  // tf_static, case, path, right_wing/pressure
 }
 
 TEST(PublishedWind, IsTheCommittedOneInEastNorthUp) {

@@ -5,15 +5,15 @@
 
 namespace monarch_flight {
 
-/// Every number of an interface in a fixed order: x, v, a, R_IB (column by column), Omega_B,
+/// Every number of an interface in a fixed order: x, v, a, q_IB (w, x, y, z), Omega_B,
 /// Omega_dot_B, pitch, theta of the right and of the left wing (each q, qd, qdd).
-using InterfaceValues = Eigen::Matrix<double, 33, 1>;
+using InterfaceValues = Eigen::Matrix<double, 28, 1>;
 InterfaceValues interfaceValues(const Interface& interface);
 Interface interfaceOf(const InterfaceValues& values);
 
 /// The same of everything prescribed: the interface, then phi and psi of the right and of the left
 /// wing, theta_A (each q, qd, qdd), the rest angles, the wind's velocity and acceleration.
-using PrescribedValues = Eigen::Matrix<double, 56, 1>;
+using PrescribedValues = Eigen::Matrix<double, 51, 1>;
 PrescribedValues prescribedValues(const PrescribedState& prescribed);
 PrescribedState prescribedOf(const PrescribedValues& values);
 

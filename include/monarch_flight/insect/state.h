@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "monarch_flight/math/rotation.h"
+
 namespace monarch_flight {
 
 /// One generalised coordinate with its first and second time derivatives (m or rad, per s, per s^2).
@@ -36,16 +38,19 @@ struct PerWing {
 };
 
 /// Motion of the body frame F_B (x forward, y right, z down) in the inertial NED frame F_I.
-/// Invariant while the body only pitches: R_IB = exp(pitch.q e2), Omega_B = pitch.qd e2.
-/// In any other attitude `pitch` is the pitch angle asin(-R_IB(2,0)) (setPitchAngle).
+/// Invariant while the body only pitches: q_IB = (cos(pitch.q / 2), 0, sin(pitch.q / 2), 0),
+/// Omega_B = pitch.qd e2. In any other attitude `pitch` is the pitch angle asin(-R_IB(2,0))
+/// (setPitchAngle).
 struct BodyState {
   Eigen::Vector3d x = Eigen::Vector3d::Zero();            ///< position of the body's mass centre, F_I [m]
   Eigen::Vector3d v = Eigen::Vector3d::Zero();            ///< velocity, F_I [m/s]
   Eigen::Vector3d a = Eigen::Vector3d::Zero();            ///< acceleration, F_I [m/s^2]
-  Eigen::Matrix3d R_IB = Eigen::Matrix3d::Identity();     ///< takes body components to inertial ones
+  Quaternion q_IB = Quaternion::Identity();               ///< attitude: unit quaternion of R_IB
   Eigen::Vector3d Omega_B = Eigen::Vector3d::Zero();      ///< angular velocity of B in I, body axes [rad/s]
   Eigen::Vector3d Omega_dot_B = Eigen::Vector3d::Zero();  ///< its time derivative, body axes [rad/s^2]
   Coordinate pitch;                                       ///< theta_B [rad]
+  /// Takes body components to inertial ones.
+  Eigen::Matrix3d R_IB() const { return rotationOf(q_IB); }
 };
 
 /// Returns `body` with attitude, Omega and Omega_dot set from the pure pitch `pitch`.

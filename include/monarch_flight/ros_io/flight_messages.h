@@ -11,14 +11,12 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
-#include <visualization_msgs/MarkerArray.h>
 
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "monarch_flight/run/case.h"
-#include "monarch_flight/viz/pressure_markers.h"
 
 namespace monarch_flight {
 
@@ -37,19 +35,22 @@ constexpr char kState[] = "/monarch_flight/state";
 constexpr char kOdometry[] = "/monarch_flight/odom";
 constexpr char kPath[] = "/monarch_flight/path";
 constexpr char kWind[] = "/monarch_flight/wind";
-constexpr char kRightWrench[] = "/monarch_flight/wrench/right_wing";
-constexpr char kLeftWrench[] = "/monarch_flight/wrench/left_wing";
-constexpr char kPressure[] = "/monarch_flight/wing_pressure";
+constexpr char kRightWrench[] = "/monarch_flight/right_wing/wrench";
+constexpr char kLeftWrench[] = "/monarch_flight/left_wing/wrench";
+constexpr char kRightPressure[] = "/monarch_flight/right_wing/pressure";
+constexpr char kLeftPressure[] = "/monarch_flight/left_wing/pressure";
 constexpr char kVortices[] = "/monarch_flight/vortices";
 constexpr char kIterations[] = "/monarch_flight/iterations";
+// For rviz alone (PressureView): neither from the coordinator nor in a bag.
+constexpr char kPressureMarkers[] = "/monarch_flight/pressure_markers";
+constexpr char kPressureLegend[] = "/monarch_flight/pressure_legend";
 }  // namespace topics
 
 using FlightMessage =
     std::variant<rosgraph_msgs::Clock, tf2_msgs::TFMessage, sensor_msgs::JointState,
                  diagnostic_msgs::DiagnosticArray, std_msgs::String, FlightState,
                  nav_msgs::Odometry, nav_msgs::Path, geometry_msgs::Vector3Stamped,
-                 geometry_msgs::WrenchStamped, visualization_msgs::MarkerArray,
-                 sensor_msgs::PointCloud2, StepIterations>;
+                 geometry_msgs::WrenchStamped, sensor_msgs::PointCloud2, StepIterations>;
 
 /// A message with its place and time: what is published and what is recorded are the same.
 struct StampedMessage {
@@ -84,7 +85,6 @@ class FlightMessages {
                                                const ros::Time& stamp) const;
 
   Case case_;
-  PressureReference pressure_;
   nav_msgs::Path path_;
   std::uint32_t path_stride_;         // steps between poses of the path
   std::uint32_t diagnostics_stride_;  // steps between diagnostics

@@ -6,11 +6,11 @@
 
 namespace monarch_flight {
 
-/// SHA-256 over the committed states, level 0 included, in order. Of each step these 43 IEEE
-/// doubles, little-endian: t; x, v, a of the body; R_IB by rows; Omega_B, Omega_dot_B; pitch q, qd,
-/// qdd; theta_R q, qd, qdd; force_pressure, force_friction, moment_pressure, moment_friction. Equal
-/// hash: the same flight bit for bit. Where both wings are solved, of the left one too: theta,
-/// loads.
+/// SHA-256 over the committed states, level 0 included, in order. Of each step these 38 IEEE
+/// doubles, little-endian: t; x, v, a of the body; q_IB as w, x, y, z; Omega_B, Omega_dot_B; pitch
+/// q, qd, qdd; theta_R q, qd, qdd; force_pressure, force_friction, moment_pressure,
+/// moment_friction. Equal hash: the same flight bit for bit. Where both wings are solved, of the
+/// left one too: theta, loads.
 class StateHash {
  public:
   explicit StateHash(bool mirrored) : mirrored_(mirrored) {}

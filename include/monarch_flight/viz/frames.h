@@ -21,6 +21,7 @@ constexpr char kStrokePlane[] = "stroke_plane";  ///< F_S: F_B turned by beta ab
 constexpr char kRightWing[] = "right_wing";      ///< F_R, at the wing's root
 constexpr char kLeftWing[] = "left_wing";        ///< F_L, at the wing's root
 constexpr char kAbdomen[] = "abdomen";           ///< F_A, at its joint
+constexpr char kLegend[] = "pressure_legend";    ///< at base_link, turned as world; only for rviz
 }  // namespace frames
 
 /// Takes NED components to ENU components (its own inverse).

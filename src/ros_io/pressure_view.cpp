@@ -1,0 +1,65 @@
+#include "monarch_flight/ros_io/pressure_view.h"
+
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/ros_io/flight_messages.h"
+#include "monarch_flight/ros_io/run_parameters.h"
+#include "monarch_flight/viz/frames.h"
+
+namespace monarch_flight {
+namespace {
+
+constexpr std::uint32_t kQueue = 100;
+
+}  // namespace
+
+PressureView::PressureView() {
+  markers_ = node_.advertise<visualization_msgs::MarkerArray>(topics::kPressureMarkers, 10, true);
+  legend_ = node_.advertise<visualization_msgs::MarkerArray>(topics::kPressureLegend, 1, true);
+  transforms_ = node_.advertise<tf2_msgs::TFMessage>(topics::kTf, kQueue, true);
+  case_ = node_.subscribe(topics::kCase, 1, &PressureView::onCase, this);
+  tf_ = node_.subscribe(topics::kTf, kQueue, &PressureView::onTransforms, this);
+  const auto listen = [this](const char* topic, Side side) {
+    return node_.subscribe<sensor_msgs::PointCloud2>(
+        topic, 10,
+        [this, side](const sensor_msgs::PointCloud2ConstPtr& cloud) { onPressure(side, cloud); });
+  };
+  pressure_ = {listen(topics::kRightPressure, Side::kRight),
+               listen(topics::kLeftPressure, Side::kLeft)};
+}
+
+void PressureView::onCase(const std_msgs::String& text) {
+  if (picture_ && text.data == shown_) return;  // a bag that is played again
+  try {
+    picture_.emplace(caseFromText(text.data, topics::kCase, {}, configDirectory()));
+  } catch (const InputError& e) {
+    ROS_WARN("no colours of this flight: %s", e.what());
+    return;
+  }
+  shown_ = text.data;
+  legend_.publish(picture_->legend());
+  for (Side side : kSides) show(side);
+}
+
+void PressureView::onPressure(Side side, const sensor_msgs::PointCloud2ConstPtr& cloud) {
+  newest_[side] = cloud;
+  show(side);
+}
+
+void PressureView::show(Side side) {
+  if (!picture_ || !newest_[side]) return;
+  if (const auto markers = picture_->add(side, *newest_[side])) markers_.publish(*markers);
+}
+
+void PressureView::onTransforms(const tf2_msgs::TFMessage& transforms) {
+  for (const geometry_msgs::TransformStamped& body : transforms.transforms) {
+    if (body.child_frame_id != frames::kBaseLink) continue;
+    tf2_msgs::TFMessage out;
+    out.transforms.push_back(body);
+    out.transforms[0].child_frame_id = frames::kLegend;
+    out.transforms[0].transform.rotation = geometry_msgs::Quaternion();
+    out.transforms[0].transform.rotation.w = 1.0;
+    transforms_.publish(out);
+  }
+}
+
+}  // namespace monarch_flight
