@@ -28,7 +28,7 @@ void LateralControl::start() {
 
 void LateralControl::average(const HeadingMotion& now, double side_velocity) {
   if (!begun_) {
-    heading_ = origin_ = reference_ = now.yaw.q;
+    heading_ = now.yaw.q;
   } else {
     const double before = heading_;
     heading_ += std::remainder(now.yaw.q - heading_, 2.0 * M_PI);
@@ -45,20 +45,19 @@ void LateralControl::move(int phase, double flaps, std::optional<double> wanted,
   if (levels_ > 0.0) {
     const double part = 1.0 / samples_, mean_reference = reference_ + 0.5 * flaps * turn_rate_;
     const Eigen::Index before = (phase + samples_ - 1) % samples_;
-    const auto orbit = [&](int k) {
-      return 0.5 * (reference(before, k) + reference(phase, k));
-    };
+    const auto orbit = [&](int k) { return 0.5 * (stateOf(before, k) + stateOf(phase, k)); };
     if (active)
       law_.integrate(phase, {part * (heading_sum_ / levels_ - mean_reference - orbit(kHeading)),
                              part * (side_sum_ / levels_ - orbit(kSide))});
     reference_ += flaps * turn_rate_;
     heading_sum_ = side_sum_ = levels_ = 0.0;
   }
+  if (flaps == 0.0) origin_ = reference_ = heading_ - settings_.states(phase, kHeading);
   steer(wanted.value_or(origin_));
 }
 
 /// A state at a sample of the turn that is being flown.
-double LateralControl::reference(Eigen::Index phase, Eigen::Index state) const {
+double LateralControl::stateOf(Eigen::Index phase, Eigen::Index state) const {
   return settings_.states(phase, state) + turn_rate_ * settings_.turn_states(phase, state);
 }
 
@@ -87,7 +86,7 @@ bool LateralControl::feedBack(int phase, const Interface& at, double lost_roll,
     const auto& [right, left] = at.theta;
     deviation_.tail<2>() << 0.5 * (right.q - left.q), 0.5 * (right.qd - left.qd);
   }
-  for (Eigen::Index k = 0; k < deviation_.size(); ++k) deviation_(k) -= reference(phase, k);
+  for (Eigen::Index k = 0; k < deviation_.size(); ++k) deviation_(k) -= stateOf(phase, k);
   if (!deviation_.allFinite() || !(std::abs(deviation_(kRollAngle)) <= lost_roll)) return false;
   law_.feedBack(phase, deviation_, applied);
   return true;

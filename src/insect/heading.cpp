@@ -31,7 +31,7 @@ HeadingMotion headingMotion(const BodyState& body) {
   HeadingMotion m;
   m.pitch = body.pitch;
   if (!onlyPitches(body)) {
-    const Eigen::Vector3d angles = rollPitchYaw(body.R_IB);
+    const Eigen::Vector3d angles = rollPitchYaw(body.R_IB());
     m.roll.q = angles.x();
     m.yaw.q = angles.z();
     setRates(m, body.Omega_B, body.Omega_dot_B);

@@ -185,7 +185,7 @@ std::string FlapMap::caseText(const TrimPoint& point, int run_in_steps, int flap
     edit.setSeries({"motion", "theta_R_deg"}, through(point.shape.theta_R, f, t0, s(4), s(5)),
                    kDegrees);
   }
-  if (inPlane(s)) {
+  if (base_.mirrored || inPlane(s)) {
     edit.remove({"initial"});
   } else {
     setInitial(edit, base_.free, s);

@@ -36,7 +36,7 @@ class LateralControl {
   double turnRate() const { return turn_rate_; }   ///< of the reference [rad a flap]
 
  private:
-  double reference(Eigen::Index phase, Eigen::Index state) const;
+  double stateOf(Eigen::Index phase, Eigen::Index state) const;
   void steer(double wanted);
 
   LateralSettings settings_;
