@@ -73,6 +73,6 @@ def command(flight, name):
 
 
 def wind(flight):
-    """x and up of the wind [m/s], or None in still air."""
+    """North, east and up of the wind [m/s], or None in still air."""
     c = flight.columns
-    return (c["wx"], -c["wz"]) if np.any(c["wx"]) or np.any(c["wz"]) else None
+    return (c["wx"], c["wy"], -c["wz"]) if any(np.any(c[name]) for name in ("wx", "wy", "wz")) else None

@@ -8,7 +8,10 @@ from led_flight import COMMANDS
 OURS, THEIRS, WANTED = "tab:blue", "tab:red", "black"
 NAMES = dict(amplitude="flapping amplitude", flapping_mean="mean of the flapping", frequency="frequency",
              deviation_mean="mean of the deviation", rest_angle="rest angle of the hinge", abdomen_mean="mean of the abdomen",
-             abdomen_amplitude="amplitude of the abdomen")
+             abdomen_amplitude="amplitude of the abdomen", differential_amplitude="differential flapping amplitude",
+             differential_flapping="differential mean of the flapping",
+             differential_deviation="differential mean of the deviation",
+             differential_rest_angle="differential rest angle of the hinges")
 AIRS = dict(quasi_steady="quasi-steady air", navier_stokes="Navier-Stokes air")
 
 
@@ -46,9 +49,31 @@ def command(axes, flight, name):
 
 
 def wind(axes, flight):
-    for values, name, line in zip(control.wind(flight), ("forward", "up"), ("-", "--")):
+    for values, name, line in zip(control.wind(flight), ("north", "east", "up"), ("-", ":", "--")):
         axes.plot(flight.columns["phase"], values, color="tab:green", ls=line, lw=1.2, label=name)
     axes.set(title="wind at the body", ylabel="velocity [m/s]")
+
+
+def heading(axes, flight):
+    end = flight.columns["phase"][-1]
+    points = [point for point in flight.headings() if point[0] < end]
+    if points:
+        axes.plot([flap for flap, _ in points] + [end], [value for _, value in points] + [points[-1][1]],
+                  drawstyle="steps-post", color=WANTED, lw=1.2, label="set point")
+    axes.plot(flight.columns["phase"], np.degrees(flight.heading()), color=OURS, lw=1.2, label="flown")
+    axes.set(title="heading", ylabel="angle [deg]")
+
+
+def roll(axes, flight):
+    axes.plot(flight.columns["phase"], np.degrees(flight.columns["roll"]), color=OURS, lw=1, label="roll, right wing down")
+    axes.set(title="roll", ylabel="angle [deg]")
+
+
+def plan(axes, flight):
+    c = flight.columns
+    axes.plot(c["y"] - c["y"][0], c["x"] - c["x"][0], color=OURS, lw=1.2, label="from above")
+    axes.plot(0.0, 0.0, "o", color=OURS, ms=4, label="start")
+    axes.set(title="path of the body", xlabel="east [m]", ylabel="north [m]", aspect="equal", adjustable="datalim")
 
 
 def path(axes, flight, alone):
@@ -62,14 +87,16 @@ def path(axes, flight, alone):
 
 
 def draw(flight, alone):
-    """States on the left, commands and wind on the right, the path where there is room."""
+    """States on the left, commands and wind on the right, the path where there is room: from above if the flight turns."""
     left = [lambda axes: pitch(axes, flight, alone),
             lambda axes: means(axes, flight, alone, 1, "climb angle", "angle [deg]"),
             lambda axes: means(axes, flight, alone, 2, "speed", "speed [m/s]")]
+    if flight.turns:
+        left += [lambda axes: heading(axes, flight), lambda axes: roll(axes, flight)]
     right = [lambda axes, name=name: command(axes, flight, name) for name in flight.used]
     if control.wind(flight) is not None:
         right.append(lambda axes: wind(axes, flight))
-    rows = max(3, len(right))
+    rows = max(len(left), len(right))
     inside = len(right) < rows  # the path in the last place on the right
     figure = plt.figure(figsize=(12, 2.5 * (rows + (not inside))), constrained_layout=True)
     grid = figure.add_gridspec(rows + (not inside), 2)
@@ -80,7 +107,10 @@ def draw(flight, alone):
             one(over_flaps[-1])
             over_flaps[-1].set(xlabel="flaps", xlim=(0, flight.columns["phase"][-1]))
     path_axes = figure.add_subplot(grid[rows - 1, 1] if inside else grid[rows, :])
-    path(path_axes, flight, alone)
+    if flight.turns:
+        plan(path_axes, flight)
+    else:
+        path(path_axes, flight, alone)
     for axes in (*over_flaps, path_axes):
         axes.legend(fontsize=7, loc="best")
     figure.suptitle(f"{flight.case['name']}, {AIRS[flight.case['fluid']['solver']]}")

@@ -10,7 +10,8 @@ import figure_data as data
 # What can be commanded, as kCommandTable in include/monarch_flight/insect/wingbeat.h: an angle, or relative.
 ANGLE, RELATIVE = "deg", "%"
 COMMANDS = dict(amplitude=RELATIVE, flapping_mean=ANGLE, frequency=RELATIVE, deviation_mean=ANGLE, rest_angle=ANGLE,
-                abdomen_mean=ANGLE, abdomen_amplitude=RELATIVE)
+                abdomen_mean=ANGLE, abdomen_amplitude=RELATIVE, differential_amplitude=RELATIVE, differential_flapping=ANGLE,
+                differential_deviation=ANGLE, differential_rest_angle=ANGLE)
 # State at a phase, and units in which a change counts 1 (docs/trim.md).
 STATES = ("vx", "vz", "theta_B", "theta_B_dot", "theta_R", "theta_R_dot")
 RATES = ("ax", "az", "theta_B_dot", "theta_B_ddot", "theta_R_dot", "theta_R_ddot")
@@ -75,9 +76,18 @@ class LedFlight:
     @property
     def used(self):
         """Commands that moved, or that the controller may use."""
-        inputs = self.case.get("guidance", {}).get("controller", {}).get("inputs", "") if self.kind == "controller" else ""
-        inputs = [name.strip() for name in inputs.split(",")]
+        controller = self.case.get("guidance", {}).get("controller", {}) if self.kind == "controller" else {}
+        inputs = [name.strip() for law in (controller, controller.get("lateral", {})) for name in law.get("inputs", "").split(",")]
         return [name for name in COMMANDS if name in inputs or np.any(self.columns["applied_" + name])]
+
+    @property
+    def turns(self):
+        """Whether the flight leaves the plane of symmetry."""
+        return bool(self.case.get("free", {}).get("yaw"))
+
+    def heading(self):
+        """Yaw over the rows, whole turns included [rad]."""
+        return np.unwrap(self.columns["yaw"])
 
     def _cut(self):
         phase = self.columns["phase"]
@@ -108,12 +118,12 @@ class LedFlight:
     def _flap(self, number, row, part, end_row, end_part):
         c, ends = self.columns, ((row, part), (end_row, end_part))
         t = [c["t"][r] + (p * (c["t"][r + 1] - c["t"][r]) if p else 0.0) for r, p in ends]
-        (x0, z0), (x1, z1) = ((self.at(*end, "x", "vx"), self.at(*end, "z", "vz")) for end in ends)
+        dx, dy, dz = (self.at(*ends[1], q, "v" + q) - self.at(*ends[0], q, "v" + q) for q in "xyz")
         first, last = (r + (p > 0.0) for r, p in ends)
         rows = slice(first, last)
         applied = {name: c["applied_" + name][rows] for name in COMMANDS}
         return Flap(number, first, last, self.state(row, part), self.state(end_row, end_part),
-                    speed=math.hypot(x1 - x0, z1 - z0) / (t[1] - t[0]), climb=math.atan2(z0 - z1, x1 - x0),
+                    speed=math.hypot(dx, dy, dz) / (t[1] - t[0]), climb=math.atan2(-dz, math.hypot(dx, dy) if dy else dx),
                     theta_B_mean=c["theta_B"][rows].mean(), theta_B_swing=np.ptp(c["theta_B"][rows]),
                     means={k: v.mean() for k, v in applied.items()}, lows={k: v.min() for k, v in applied.items()},
                     highs={k: v.max() for k, v in applied.items()},
@@ -123,6 +133,11 @@ class LedFlight:
         """(flap, speed [m/s], climb [deg]) of the controller, over ground; none without one."""
         points = self.case.get("guidance", {}).get("controller", {}).get("set_points", {}) if self.kind == "controller" else {}
         return list(zip(*(points[key] for key in ("flaps", "speeds", "climbs_deg")))) if points else []
+
+    def headings(self):
+        """(flap, heading [deg]) of the controller; none without them."""
+        points = self.case.get("guidance", {}).get("controller", {}).get("set_points", {}) if self.kind == "controller" else {}
+        return list(zip(points["flaps"], points["headings_deg"])) if "headings_deg" in points else []
 
     def lost_from(self):
         """Flap in which the controller gave up, or None."""

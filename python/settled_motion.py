@@ -23,6 +23,9 @@ def check(flight):
     if np.any(c["applied_frequency"] != 0.0):
         faults.append(f"applied_frequency of {c['applied_frequency'][-1]:g} at the end: must be 0, for the gains belong to the "
                       "frequency they were computed with; lead by amplitude instead")
+    if flight.turns:
+        faults.append("free/yaw = true: must be false, the motion that commands are folded into stays in the plane of symmetry; "
+                      "fly the case with wings:=mirrored")
     if faults:
         raise Unfit(*(f"{flight.folder}: {fault}" for fault in faults))
 

@@ -1,5 +1,5 @@
-// How well the lateral law holds a heading: whole turns, starts off the plane of symmetry, gusts from
-// the side, a wing that has lost a part.
+// How well the lateral law holds a heading: whole turns, starts off the plane of symmetry, gusts
+// from the side, a wing that has lost a part.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,7 +18,8 @@ namespace {
 /// Of some flaps of a flight.
 struct Extent {
   double heading = 0.0;  ///< at the end, against the start [rad]
-  double roll = 0.0, side = 0.0, speed = 0.0, climb = 0.0;  ///< largest distance from 0 or what is wanted
+  double roll = 0.0, side = 0.0, speed = 0.0,
+         climb = 0.0;  ///< largest distance from 0 or what is wanted
   std::size_t limited = 0;
 };
 
@@ -52,7 +53,8 @@ int arrived(const ControlledFlight& flight, double wanted, std::size_t from) {
 void print(const char* what, const Extent& e, int after, const ControlledFlight& flight) {
   std::printf(
       "%s: heading %.2f deg at the end, there after %d flaps; speed off by at most %.3f m/s, climb "
-      "by %.2f deg; roll up to %.1f deg, side-slip %.3f m/s; inputs limited in %zu of %zu flaps%s\n",
+      "by %.2f deg; roll up to %.1f deg, side-slip %.3f m/s; inputs limited in %zu of %zu "
+      "flaps%s\n",
       what, e.heading / kDegree, after, e.speed, e.climb / kDegree, e.roll / kDegree, e.side,
       e.limited, flight.flaps.size(), flight.lost ? ", LOST" : "");
   if (!flight.complete) std::printf("  the flight ended: %s\n", flight.failure.c_str());
@@ -146,8 +148,8 @@ void flyCut(const Subject& s, double lost, bool uncontrolled, const char* law) {
   std::printf("\n");
 }
 
-/// A wing that loses more and more: the law of the whole insect on it, and one that has been made for
-/// it, step by step from the one before.
+/// A wing that loses more and more: the law of the whole insect on it, and one that has been made
+/// for it, step by step from the one before.
 void damage(const Subject& whole, const ControlOptions& given, const std::string& config_dir) {
   constexpr double kStep = 0.02, kMost = 0.21;
   constexpr double kDeviation = 0.35;  // limit of the difference of the wings' mean deviation [rad]

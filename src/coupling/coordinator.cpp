@@ -196,6 +196,9 @@ Reply Coordinator::accepted(Role role, const Request& request, Reply reply) cons
   if (reply.key != request.key)
     throw ExchangeError(place + "the answer belongs to another request");
   if (!finite(reply)) throw NumericalError(place + "non-finite number in the answer");
+  if ((role == Role::kFlight && !isAttitude(reply.interface.body.q_IB)) ||
+      (reply.prescribed && !isAttitude(reply.prescribed->body.q_IB)))
+    throw NumericalError(place + "the orientation in the answer is not a unit quaternion");
   return reply;
 }
 

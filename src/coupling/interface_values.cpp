@@ -87,6 +87,8 @@ bool same(const Request& a, const Request& b) {
          a.vortex_limit == b.vortex_limit && a.want_flow == b.want_flow;
 }
 
+bool isAttitude(const Quaternion& q) { return std::abs(q.squaredNorm() - 1.0) <= 1e-6; }
+
 bool finite(const Request& request) {
   return std::isfinite(request.t) && std::isfinite(request.q_threshold) &&
          prescribedValues(request.prescribed).allFinite() &&

@@ -4,6 +4,13 @@
 
 namespace monarch_flight {
 
+std::string namesOf(const std::vector<std::size_t>& inputs) {
+  std::string names;
+  for (std::size_t input : inputs)
+    names += (names.empty() ? "" : ", ") + std::string(kCommandTable[input].name);
+  return names;
+}
+
 FeedbackLaw::FeedbackLaw(FeedbackGains gains) : gains_(std::move(gains)) {
   asked_ = excess_ = reference_ = ControlInput::Zero(gains_.size());
   start();

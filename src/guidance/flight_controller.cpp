@@ -105,7 +105,7 @@ void FlightController::sample(const WingbeatLevel& level, const Air& now, double
 }
 
 std::optional<double> FlightController::heading(double flap) const {
-  std::optional<double> wanted;
+  std::optional<double> wanted = settings_.set_points.front().heading;
   for (const SetPoint& point : settings_.set_points)
     if (point.heading && point.flap <= flap + kOnTime) wanted = point.heading;
   return wanted;

@@ -53,7 +53,8 @@ void LateralControl::move(int phase, double flaps, std::optional<double> wanted,
     heading_sum_ = side_sum_ = levels_ = 0.0;
   }
   if (flaps == 0.0) origin_ = reference_ = heading_ - settings_.states(phase, kHeading);
-  steer(wanted.value_or(origin_));
+  if (active) steer(wanted.value_or(origin_));
+  if (!active) turn_rate_ = 0.0;
 }
 
 /// A state at a sample of the turn that is being flown.
@@ -61,13 +62,14 @@ double LateralControl::stateOf(Eigen::Index phase, Eigen::Index state) const {
   return settings_.states(phase, state) + turn_rate_ * settings_.turn_states(phase, state);
 }
 
-/// Up to the turn rate, and down again in time to end at the heading that is wanted.
+/// Up to the turn rate, and down again in time to end at the heading that is wanted: from a rate r,
+/// less by `change` at every further sample, the way is r (r + change) / (2 change N).
 void LateralControl::steer(double wanted) {
-  const double way = wanted - reference_, most = settings_.turn, change = most / kRamp;
-  const double braking = std::sqrt(2.0 * change * std::abs(way));
-  const double rate = std::copysign(std::min({most, braking, samples_ * std::abs(way)}), way);
-  const double step = change / samples_;
-  turn_rate_ = std::clamp(rate, turn_rate_ - step, turn_rate_ + step);
+  const double N = samples_, way = wanted - reference_, most = settings_.turn;
+  const double change = most / (kRamp * N), half = 0.5 * change;
+  const double braking = std::sqrt(half * half + 2.0 * change * N * std::abs(way)) - half;
+  const double rate = std::copysign(std::min({most, braking, N * std::abs(way)}), way);
+  turn_rate_ = std::clamp(rate, turn_rate_ - change, turn_rate_ + change);
 }
 
 void LateralControl::refer() {

@@ -29,6 +29,7 @@ PressureView::PressureView() {
 
 void PressureView::onCase(const std_msgs::String& text) {
   if (picture_ && text.data == shown_) return;  // a bag that is played again
+  if (picture_) newest_ = {};                   // of another flight
   try {
     picture_.emplace(caseFromText(text.data, topics::kCase, {}, configDirectory()));
   } catch (const InputError& e) {

@@ -86,7 +86,8 @@ void readGains(Section section, int states, FeedbackGains& gains) {
   section.finish();
 }
 
-std::optional<LateralSettings> readLateral(Section section, int states, Faults& faults) {
+std::optional<LateralSettings> readLateral(Section section, int samples, int states,
+                                           Faults& faults) {
   LateralSettings lateral;
   const std::size_t before = faults.count();
   lateral.gains.inputs = readInputs(section, kDifferential, faults);
@@ -96,8 +97,8 @@ std::optional<LateralSettings> readLateral(Section section, int states, Faults& 
   lateral.turn_commands = vector(turn, "commands");
   lateral.turn_states = matrix(turn, "states", static_cast<std::size_t>(states));
   turn.finish();
-  lateral.commands = Eigen::VectorXd::Zero(lateral.turn_commands.size());
-  lateral.states = Eigen::MatrixXd::Zero(lateral.turn_states.rows(), states);
+  lateral.commands = Eigen::VectorXd::Zero(lateral.gains.size());
+  lateral.states = Eigen::MatrixXd::Zero(samples, states);
   if (section.has("straight")) {
     Section straight = section.section("straight");
     lateral.commands = vector(straight, "commands");
@@ -199,7 +200,7 @@ std::optional<ControllerSettings> readController(Section section, const Case& c,
                       static_cast<std::size_t>(s.states()));
   readGains(section.section("gains"), s.states(), s.gains);
   if (section.has("lateral"))
-    s.lateral = readLateral(section.section("lateral"), s.lateralStates(), faults);
+    s.lateral = readLateral(section.section("lateral"), s.samples, s.lateralStates(), faults);
   if (faults.count() > before) return std::nullopt;
   checkAgainst(c, s, section);
   faults.add(s.problems());

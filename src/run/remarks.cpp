@@ -12,6 +12,15 @@ std::vector<std::string> runRemarks(const Case& c, std::uint32_t steps) {
                       " steps follow the motion (coupling/prescribed_steps = " +
                       std::to_string(prescribed) + "); fly more steps than that, or lower it");
   }
+  const bool aside = c.free[kY] || c.free[kRoll] || c.free[kYaw];
+  if (aside && c.guidance.controller && !c.guidance.controller->lateral) {
+    remarks.push_back(
+        "the controller has no section lateral: roll, heading and side-slip are left alone, and "
+        "the "
+        "flight may leave the plane; let scripts/trim write one (control:=true, "
+        "wings:=independent), "
+        "or set free/y, free/roll and free/yaw to false");
+  }
   if (c.time.remainder > 0.0 && steps == c.time.steps) {
     std::ostringstream text;
     text << "the run ends with its last whole step, " << c.time.steps << ", after "

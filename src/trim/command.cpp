@@ -97,6 +97,12 @@ int runTrim(TrimCommand command, const std::string& config_dir, std::ostream& ou
     options.jacobian = readJacobian(command.jacobian_file, c, options);
     options.newton.broyden = true;
   }
+  if (c.mirrored && options.start && !inPlane(*options.start)) {
+    throw InputError(
+        "start: v, roll, roll_dot, yaw_dot must be 0 and both wings alike with mirrored wings; "
+        "give "
+        "six numbers, or wings:=independent");
+  }
   const FlapMap map(c, config_dir, options.parameters, options.run_in);
   const auto keep = [&](const TrimResult& result) {
     writeResult(command.out, map, options, result, command.fly > 0 ? command.fly : 6);

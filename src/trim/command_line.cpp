@@ -188,6 +188,7 @@ std::optional<ControlOptions> control(Arguments& arguments) {
   if (arguments.has("lateral_inputs"))
     options.lateral_inputs = inputList(arguments, "lateral_inputs", kAlikeCommands, kCommands);
   if (arguments.has("turn")) options.turn = kRadians * arguments.number("turn", 1e-3, 360.0, 5.0);
+  options.lateral_asked = arguments.has("lateral_inputs") || arguments.has("turn");
   options.time_constant = arguments.number("time_constant", 1e-3, 10.0, options.time_constant);
   if (arguments.has("speed")) options.speed = arguments.number("speed", 1e-3, 100.0, 1.0);
   if (arguments.has("climb"))

@@ -25,7 +25,7 @@ std::string list(const std::vector<double>& values, double unit) {
   return "[" + text + "]";
 }
 
-/// A key with rows of numbers; eight digits are more than a gain is worth.
+/// Eight digits are more than a gain is worth.
 std::string row(const Eigen::RowVectorXd& values) {
   constexpr int kDigits = 8;
   std::string text;
@@ -33,7 +33,7 @@ std::string row(const Eigen::RowVectorXd& values) {
   return "[" + text + "]";
 }
 
-/// In a section that stands at `indent`.
+/// A key with rows of numbers, in a section that stands at `indent`.
 void rows(std::ostream& out, const std::string& indent, const std::string& key,
           const Eigen::MatrixXd& m) {
   out << indent << "  " << key << ":\n";
@@ -55,13 +55,6 @@ void gainRows(std::ostream& out, const FeedbackGains& gains, const std::string& 
   rows(out, indent, "state", gains.state);
   rows(out, indent, "filter", gains.filter);
   rows(out, indent, "integral", gains.integral);
-}
-
-std::string namesOf(const std::vector<std::size_t>& inputs) {
-  std::string names;
-  for (std::size_t i : inputs)
-    names += (names.empty() ? "" : ", ") + std::string(kCommandTable[i].name);
-  return names;
 }
 
 void lateralSection(std::ostream& out, const LateralSettings& lateral) {

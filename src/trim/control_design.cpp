@@ -149,6 +149,13 @@ void checkCase(const Case& c, const ControlOptions& options) {
   std::vector<std::string> faults;
   if (!c.free[kX] || !c.free[kZ] || !c.free[kPitch])
     faults.push_back("free: x, z and pitch must be true for a flight to be controlled; free them");
+  const int aside = (c.free[kY] ? 1 : 0) + (c.free[kRoll] ? 1 : 0) + (c.free[kYaw] ? 1 : 0);
+  if (aside != 0 && aside != 3)
+    faults.push_back("free: y, roll and yaw must all be true or all be false; change the others");
+  if (aside == 0 && options.lateral_asked)
+    faults.push_back(
+        "lateral_inputs, turn: need y, roll and yaw free; give wings:=independent, or leave them "
+        "out");
   if (options.inputs.size() < 2)
     faults.push_back(
         "inputs: must be two commands or more to hold speed and climb; amplitude,deviation_mean "

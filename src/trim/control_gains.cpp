@@ -11,24 +11,22 @@ namespace {
 
 using Eigen::Index;
 
-std::string namesOf(const std::vector<std::size_t>& inputs) {
-  std::string names;
-  for (std::size_t input : inputs)
-    names += (names.empty() ? "" : ",") + std::string(kCommandTable[input].name);
-  return names;
-}
-
 }  // namespace
 
 LinearLaw linearLaw(std::vector<LinearStage> stages, const ControlSpace& space,
                     const ControlOptions& options) {
+  if (space.inputs.size() < 2) {  // one input cannot bring two means to what is wanted
+    for (LinearStage& stage : stages) {
+      stage.A.bottomRows(1).setZero();
+      stage.B.bottomRows(1).setZero();
+    }
+  }
   const Eigen::VectorXd scales = space.scales();
   const Index n = scales.size(), m = static_cast<Index>(space.inputs.size()), all = n + 3 * m + 2;
   Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(all, all), R = Eigen::MatrixXd::Zero(m, m);
   for (Index i = 0; i < n; ++i) Q(i, i) = options.state_weight / std::pow(scales(i), 2);
   for (Index i = 0; i < 2; ++i)
-    Q(all - 2 + i, all - 2 + i) =
-        options.integral_weight / std::pow(space.integralScales()(i), 2);
+    Q(all - 2 + i, all - 2 + i) = options.integral_weight / std::pow(space.integralScales()(i), 2);
   for (Index i = 0; i < m; ++i)
     R(i, i) = options.input_weight / std::pow(commandScale(space.inputs[std::size_t(i)]), 2);
   const PeriodicLqr lqr = periodicLqr(stages, Q, R);
@@ -39,8 +37,7 @@ LinearLaw linearLaw(std::vector<LinearStage> stages, const ControlSpace& space,
   law.stages = std::move(stages);
   if (!lqr.converged || !(std::abs(law.closed_loop.front()) < 1.0))
     throw NumericalError("the recursion for the gains does not converge: the inputs " +
-                         namesOf(space.inputs) +
-                         " cannot hold what is asked; choose others");
+                         namesOf(space.inputs) + " cannot hold what is asked; choose others");
   const auto N = static_cast<Index>(law.stages.size());
   law.gains.inputs = space.inputs;
   law.gains.state.resize(m * N, n);

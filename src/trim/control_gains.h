@@ -13,13 +13,13 @@ std::vector<LinearStage> linearise(const PhaseMap& map, const ControlSpace& spac
                                    const std::vector<FlapState>& orbit,
                                    const WingbeatStart& wingbeat);
 
-/// Gains by Riccati's recursion, with the multipliers of both loops. NumericalError where the inputs
-/// cannot hold the states.
+/// Gains by Riccati's recursion, with the multipliers of both loops. NumericalError where the
+/// inputs cannot hold the states.
 LinearLaw linearLaw(std::vector<LinearStage> stages, const ControlSpace& space,
                     const ControlOptions& options);
 
-/// The heading's law about an orbit, with its turn; of wings that differ with the commands and states
-/// of the trim.
+/// The heading's law about an orbit, with its turn; of wings that differ with the commands and
+/// states of the trim.
 void designLateral(ControlDesign& design, const PhaseMap& map, const ControlTrim& trim,
                    const std::vector<FlapState>& orbit, const WingbeatStart& wingbeat);
 

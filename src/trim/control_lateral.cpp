@@ -3,6 +3,7 @@
 
 #include "monarch_flight/math/errors.h"
 #include "trim/control_gains.h"
+#include "trim/control_scales.h"
 
 namespace monarch_flight {
 namespace {
@@ -12,6 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kHeadingState = 3;
+constexpr double kMet = 1e-6;  // of the conditions of a turn of one rad a flap
 
 /// The steady turn of the linear maps at one rad a flap: commands held, everything but the heading
 /// the same after a flap, and no side velocity in the mean if there is an input for it.
@@ -20,7 +22,8 @@ struct Turn {
   MatrixXd states;  // a row a sample
 };
 
-Turn steadyTurn(const std::vector<LinearStage>& stages, Index n, Index m) {
+Turn steadyTurn(const std::vector<LinearStage>& stages, const ControlSpace& space) {
+  const Index n = space.scales().size(), m = static_cast<Index>(space.inputs.size());
   const Index all = stages.front().A.rows();
   // Everything is linear in the start (heading 0) and in the commands; the filters are at rest.
   const Index unknowns = n + m;
@@ -40,7 +43,15 @@ Turn steadyTurn(const std::vector<LinearStage>& stages, Index n, Index m) {
   conditions.row(n + 1).setZero();
   conditions(n + 1, kHeadingState) = 1.0;  // the heading begins at 0
   if (m < 2) conditions.row(n).setZero();
-  const VectorXd y = conditions.completeOrthogonalDecomposition().solve(wanted);
+  VectorXd scales(unknowns);
+  scales.head(n) = space.scales();
+  for (Index i = 0; i < m; ++i)
+    scales(n + i) = commandScale(space.inputs[static_cast<std::size_t>(i)]);
+  const MatrixXd scaled = conditions * scales.asDiagonal();
+  const VectorXd y = scales.cwiseProduct(scaled.completeOrthogonalDecomposition().solve(wanted));
+  if (!((conditions * y - wanted).norm() < kMet))
+    throw NumericalError("no steady turn by " + namesOf(space.inputs) +
+                         "; choose other lateral_inputs");
   Turn turn{y.tail(m), MatrixXd(static_cast<Index>(stages.size()), n)};
   for (std::size_t j = 0; j < states.size(); ++j)
     turn.states.row(static_cast<Index>(j)) = (states[j] * y).transpose();
@@ -58,11 +69,12 @@ void designLateral(ControlDesign& design, const PhaseMap& map, const ControlTrim
                    const std::vector<FlapState>& orbit, const WingbeatStart& wingbeat) {
   const ControlOptions& options = design.options;
   const auto space = lateralSpace(map.baseCase(), options.lateral_inputs);
-  design.lateral = linearLaw(linearise(map, *space, orbit, wingbeat), *space, options);
+  const std::vector<LinearStage> stages = linearise(map, *space, orbit, wingbeat);
+  design.lateral = linearLaw(stages, *space, options);
   const Index n = space->scales().size(), m = static_cast<Index>(space->inputs.size());
-  const Turn turn = steadyTurn(design.lateral->stages, n, m);
-  LateralSettings s{design.lateral->gains, options.turn, turn.commands, turn.states,
-                    VectorXd::Zero(m), MatrixXd::Zero(options.samples, n)};
+  const Turn turn = steadyTurn(stages, *space);
+  LateralSettings s{design.lateral->gains, options.turn,      turn.commands,
+                    turn.states,           VectorXd::Zero(m), MatrixXd::Zero(options.samples, n)};
   if (!trim.symmetric) {
     for (Index i = 0; i < m; ++i)
       s.commands(i) =

@@ -6,6 +6,7 @@
 namespace monarch_flight {
 namespace {
 
+using Eigen::Index;
 using Eigen::VectorXd;
 
 class InPlane : public ControlSpace {
@@ -35,7 +36,8 @@ class InPlane : public ControlSpace {
 class Lateral : public ControlSpace {
  public:
   Lateral(const Case& c, std::vector<std::size_t> inputs)
-      : ControlSpace(std::move(inputs)), n_(c.free[kThetaR] ? kLateralStates : kLateralStates - 2) {}
+      : ControlSpace(std::move(inputs)),
+        n_(c.free[kThetaR] ? kLateralStates : kLateralStates - 2) {}
   VectorXd scales() const override {
     VectorXd all(kLateralStates);
     all << 0.1, 0.1, 5.0, 0.1, 5.0, 0.1, 10.0;
@@ -43,15 +45,7 @@ class Lateral : public ControlSpace {
   }
   Eigen::Vector2d integralScales() const override { return {0.1, 0.1}; }  // [rad flaps, m/s flaps]
   FlapState changed(FlapState s, const VectorXd& change) const override {
-    s(6) += change(0);
-    s(7) += change(1);
-    s(8) += change(2);
-    s(9) += change(4);  // nothing depends on the heading
-    for (int i = 5; i < n_; ++i) {
-      s(i - 1) += change(i);
-      s(i + 5) -= change(i);
-    }
-    return s;
+    return changedAside(s, change);
   }
   VectorXd end(const PhaseFlight& flight, const VectorXd& change) const override {
     return lateralState(flight.states.back(), change(3) + flight.sideways.turn).head(n_);
@@ -70,6 +64,18 @@ VectorXd lateralState(const FlapState& s, double heading) {
   VectorXd x(kLateralStates);
   x << s(6), s(7), s(8), heading, s(9), 0.5 * (s(4) - s(10)), 0.5 * (s(5) - s(11));
   return x;
+}
+
+FlapState changedAside(FlapState s, const VectorXd& change) {
+  s(6) += change(0);
+  s(7) += change(1);
+  s(8) += change(2);
+  s(9) += change(4);
+  for (Index i = 5; i < change.size(); ++i) {
+    s(i - 1) += change(i);
+    s(i + 5) -= change(i);
+  }
+  return s;
 }
 
 std::unique_ptr<ControlSpace> inPlaneSpace(const Case& c, std::vector<std::size_t> inputs) {

@@ -26,9 +26,6 @@ class ControlSpace {
   const std::vector<std::size_t> inputs;
 };
 
-/// What the lateral law sees of a state.
-Eigen::VectorXd lateralState(const FlapState& state, double heading);
-
 /// In the plane of symmetry: both wings alike; means of the velocity.
 std::unique_ptr<ControlSpace> inPlaneSpace(const Case& c, std::vector<std::size_t> inputs);
 /// Out of it (LateralState): the wings against each other; means of heading and side velocity.

@@ -186,7 +186,8 @@ SetPoint ownSetPoint(const Case& c) {
 bool fliesStraight(const PhaseMap& map) {
   const FlapState start = map.prescribedState(0);
   const PhaseFlight flight = map.fly(0, start, {}, 1);
-  if (!flight.complete) throw NumericalError("a flight over a sample fails: " + flight.failure);
+  if (!flight.complete)
+    throw NumericalError("the flight from the case's motion fails: " + flight.failure);
   const FlapState& end = flight.states.back();
   return flight.sideways.turn == 0.0 && end.segment<4>(kInPlaneStates).isZero(0.0);
 }
@@ -198,7 +199,7 @@ ControlTrim findTrim(const PhaseMap& map, const ControlOptions& options, double 
   const auto f = [&](const VectorXd& y) { return flap.residual(y); };
   const auto unheard = [](const NewtonResult&) {};
   NewtonResult r;
-  if (guess.jacobian.size() > 0)
+  if (guess.jacobian.cols() == flap.unknowns().size())  // else of a flight of the other kind
     r = solveTrim(f, flap.unknowns(), searchSettings(options, unknowns, true), guess.jacobian,
                   unheard);
   constexpr double kMet = 0.1;  // of the targets

@@ -82,19 +82,6 @@ class FlapSink : public StepSink {
   unsigned clipped_ = 0;
 };
 
-/// The state with what the lateral law's flight straight on adds.
-FlapState aside(FlapState s, const Eigen::VectorXd& lateral) {
-  s(6) += lateral(0);
-  s(7) += lateral(1);
-  s(8) += lateral(2);
-  s(9) += lateral(4);
-  for (Eigen::Index i = 5; i < lateral.size(); ++i) {
-    s(i - 1) += lateral(i);
-    s(i + 5) -= lateral(i);
-  }
-  return s;
-}
-
 }  // namespace
 
 ControlledFlight flyControlled(const Case& given, const WingbeatSettings& wingbeat,
@@ -112,16 +99,19 @@ ControlledFlight flyControlled(const Case& given, const WingbeatSettings& wingbe
       std::lround(controller.samples * (c.time.t_start / c.time.period)) % controller.samples);
   controller.table.at(controller.set_points.front().velocity(), phase, reference);
   FlapState s = with(FlapState::Zero(), reference.state);
-  if (controller.lateral) s = aside(s, controller.lateral->states.row(phase));
+  if (controller.lateral) s = changedAside(s, controller.lateral->states.row(phase));
   s += start.change;
   c.motion = std::make_shared<StartMotion>(
       c.motion, startOf(c.free, Eigen::Vector3d::Zero(), s, FlapState::Zero()), c.time.t_start);
   std::unique_ptr<CommandSource> source;
   if (start.uncontrolled) {
     WingbeatChange trim;
-    for (std::size_t i = 0; i < controller.gains.inputs.size(); ++i)
-      trim.*kCommandTable[controller.gains.inputs[i]].value =
-          reference.commands(static_cast<Eigen::Index>(i));
+    const auto set = [&trim](const FeedbackGains& gains, const Eigen::VectorXd& commands) {
+      for (Eigen::Index i = 0; i < gains.size(); ++i)
+        trim.*kCommandTable[gains.inputs[static_cast<std::size_t>(i)]].value = commands(i);
+    };
+    set(controller.gains, reference.commands);
+    if (controller.lateral) set(controller.lateral->gains, controller.lateral->commands);
     source = std::make_unique<Constant>(trim);
   } else {
     source = std::make_unique<FlightController>(controller);

@@ -26,11 +26,6 @@ Case changedCase(const Case& base, const std::vector<TrimParameter>& parameters,
   return caseFromText(edit.text(), base.name + " with changed parameters", {}, config_dir);
 }
 
-/// Whether both sides do the same and the body only pitches.
-bool inPlane(const FlapState& s) {
-  return s.segment<4>(kInPlaneStates).isZero(0.0) && s.tail<2>() == s.segment<2>(4);
-}
-
 /// An explicit start, for a state that no flight in the plane of symmetry passes through.
 void setInitial(CaseEdit& edit, const FreeCoordinates& free, const FlapState& s) {
   edit.setVector({"initial", "velocity"}, {s(0), s(6), s(1)});
@@ -43,7 +38,9 @@ void setInitial(CaseEdit& edit, const FreeCoordinates& free, const FlapState& s)
     edit.set({"initial", name}, s(places[i]));
     edit.set({"initial", std::string(name) + "_dot"}, s(places[i] + 1));
   }
-  if (free[kYaw]) edit.set({"initial", "yaw_dot"}, s(9));
+  if (!free[kYaw]) return;
+  edit.set({"initial", "yaw"}, 0.0);  // the velocity's axes
+  edit.set({"initial", "yaw_dot"}, s(9));
 }
 
 }  // namespace

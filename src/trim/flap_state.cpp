@@ -10,6 +10,10 @@ FlapState trimScales() {
   return scales;
 }
 
+bool inPlane(const FlapState& s) {
+  return s.segment<4>(kInPlaneStates).isZero(0.0) && s.tail<2>() == s.segment<2>(4);
+}
+
 FlapState flapState(const Interface& at) {
   const HeadingMotion body = headingMotion(at.body);
   FlapState s;

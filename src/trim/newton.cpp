@@ -226,6 +226,9 @@ NewtonResult solveTrim(const TrimFunction& f, const VectorXd& start, const Newto
   r.residual = *first;
   r.jacobian = std::move(jacobian);
   const Index n = r.residual.periodicity.size();
+  if (r.jacobian.size() > 0 &&
+      (r.jacobian.cols() != start.size() || r.jacobian.rows() != r.residual.stacked().size()))
+    throw NumericalError("trim: the Jacobian given is of another search; leave it out");
   double limit = settings.max_step;  // of a step
   for (;; ++r.iterations) {
     accepted(r);

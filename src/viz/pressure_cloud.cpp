@@ -9,8 +9,7 @@
 namespace monarch_flight {
 namespace {
 
-const std::vector<std::string> kFields = {"x",  "y",       "z",       "dx",
-                                          "dy", "p_upper", "p_lower", "jump"};
+const std::vector<std::string> kFields = {"x", "y", "z", "dx", "dy", "p_upper", "p_lower", "jump"};
 using Numbers = std::array<float, 8>;
 
 /// Takes y of the wing told as a right one to its own axes, and back.
@@ -24,8 +23,8 @@ sensor_msgs::PointCloud2 pressureCloud(const SurfacePressure& surface, Side side
   sensor_msgs::PointCloud2 cloud = floatCloud(kFields, surface.facets.size(), frame, stamp);
   std::uint8_t* out = cloud.data.data();
   for (const SurfacePressure::Facet& f : surface.facets) {
-    const Numbers numbers{f.x,  mirroredY(f.y, side), 0.0f,      f.dx,
-                          f.dy, f.p_upper,            f.p_lower, f.p_upper - f.p_lower};
+    const Numbers numbers{f.x,       mirroredY(f.y, side), 0.0f, f.dx, f.dy, f.p_upper,
+                          f.p_lower, f.p_upper - f.p_lower};
     std::memcpy(out, numbers.data(), sizeof numbers);
     out += sizeof numbers;
   }

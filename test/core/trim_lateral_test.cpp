@@ -1,5 +1,5 @@
-// Flight out of the plane of symmetry: trims and modes in space, a heading held and turned to, wings
-// that differ.
+// Flight out of the plane of symmetry: trims and modes in space, a heading held and turned to,
+// wings that differ.
 #include <cmath>
 #include <sstream>
 
@@ -29,21 +29,25 @@ TEST(LateralTrim, ModesAreThoseOfTheFlightAndApartFromTheOthers) {
   ASSERT_EQ(r.floquet.size(), std::size_t(kFlapStates));
   EXPECT_LT(std::abs(r.flaps[0].turn), 1e-12);
   const FlapMap map(c, CONFIG_DIR, {}, 0);
-  const Flap straight = map.fly(r.point, 1).flaps[0];
   int lateral = 0;
   for (const FloquetMode& mode : r.floquet) {
     const double aside = mode.mode.segment<4>(6).norm(), in_plane = mode.mode.head<4>().norm();
     EXPECT_LT(std::min(aside, in_plane), 1e-6);
+    const double alike = aside < in_plane ? 1.0 : -1.0;  // what the wings do
+    EXPECT_LT((mode.mode.segment<2>(4) - alike * mode.mode.tail<2>()).norm(), 1e-6);
     if (aside < in_plane || mode.multiplier.imag() != 0.0) continue;
     ++lateral;
     if (std::abs(mode.multiplier) < 0.05) continue;  // nothing is left of it
     constexpr double kSmall = 0.02;
-    TrimPoint off = r.point;
-    off.state += kSmall * mode.mode.real().cwiseProduct(trimScales());
+    const FlapState change = kSmall * mode.mode.real().cwiseProduct(trimScales());
+    TrimPoint more = r.point, less = r.point;
+    more.state += change;
+    less.state -= change;
     const FlapState grown =
-        (map.fly(off, 1).flaps[0].end - straight.end).cwiseQuotient(trimScales());
+        0.5 *
+        (map.fly(more, 1).flaps[0].end - map.fly(less, 1).flaps[0].end).cwiseQuotient(trimScales());
     const FlapState expected = kSmall * (mode.multiplier * mode.mode).real();
-    EXPECT_LT((grown - expected).norm(), 0.1 * expected.norm() + 1e-3) << mode.multiplier;
+    EXPECT_LT((grown - expected).norm(), 0.05 * expected.norm()) << mode.multiplier;
   }
   EXPECT_GE(lateral, 4);
 }
@@ -136,15 +140,26 @@ TEST(LateralControl, AWingThatHasLostAPartIsTrimmedStraightAndHeld) {
   EXPECT_GT(design.settings.lateral->commands.norm(), 0.01);
   ControlledStart start;
   start.flaps = 15;
-  const ControlledFlight held = flyControlled(c, wingbeatSettings(c, options), design.settings, start);
+  const ControlledFlight held =
+      flyControlled(c, wingbeatSettings(c, options), design.settings, start);
   ASSERT_TRUE(held.complete) << held.failure;
   EXPECT_FALSE(held.lost);
   EXPECT_NEAR(headingOf(held), 0.0, 2.0 * kDegree);
   EXPECT_NEAR(held.flaps.back().speed, design.trim.speed, 0.01);
+  // Without control its own trim is commanded.
+  start.uncontrolled = true;
+  start.flaps = 2;
+  const ControlledFlight trimmed =
+      flyControlled(c, wingbeatSettings(c, options), design.settings, start);
+  for (std::size_t i = 0; i < design.settings.lateral->gains.inputs.size(); ++i) {
+    const auto value = kCommandTable[design.settings.lateral->gains.inputs[i]].value;
+    EXPECT_EQ(trimmed.flaps[0].command_low.*value,
+              design.settings.lateral->commands(static_cast<Eigen::Index>(i)));
+  }
+  start.flaps = 15;
   // The whole insect's commands alone: it turns away.
   start.uncontrolled = true;
-  const ControlledFlight alone =
-      flyControlled(c, whole.wingbeat, whole.design.settings, start);
+  const ControlledFlight alone = flyControlled(c, whole.wingbeat, whole.design.settings, start);
   EXPECT_GT(std::abs(headingOf(alone)), 45.0 * kDegree);
 }
 
@@ -182,6 +197,9 @@ TEST_F(LateralCase, SectionIsReadAsItWasDesigned) {
   expectHas(refusal("      flaps: [0]", "      headings_deg: [0, 1]\n      flaps: [0]"),
             "headings_deg has 2 values");
   expectHas(refusal("roll: true", "roll: false"), "needs wings: independent, and free/y");
+  std::string plane = text.substr(0, text.find("    lateral:"));
+  plane.replace(plane.find("      flaps: [0]"), 16, "      headings_deg: [5]\n      flaps: [0]");
+  EXPECT_THROW(caseFromText(plane, "changed", {}, CONFIG_DIR), InputError);
 }
 
 }  // namespace

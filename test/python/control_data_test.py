@@ -62,6 +62,21 @@ class Controlled(unittest.TestCase):
         self.assertAlmostEqual(phase[-1], 3.55)
         np.testing.assert_allclose(control.flap_means(flight)[0], [0.5, 1.5, 2.5])
 
+    def test_turns_are_counted_whole_and_the_speed_is_that_in_space(self):
+        c = made.columns(velocity=(1.2, 0.0))
+        c["y"], c["vy"] = 0.9 * c["t"], c["vy"] + 0.9
+        c["yaw"] = np.angle(np.exp(1j * 1.3 * c["phase"]))
+        case_ = made.case()
+        case_["free"] = dict(case_["free"], y=True, roll=True, yaw=True)
+        case_["guidance"]["controller"]["set_points"]["headings_deg"] = [0, 90]
+        case_["guidance"]["controller"]["lateral"] = dict(inputs="differential_rest_angle")
+        flight = LedFlight(made.write(self.folder / "turning", case_, c))
+        self.assertTrue(flight.turns)
+        np.testing.assert_allclose(flight.heading(), 1.3 * c["phase"], atol=1e-9)
+        self.assertAlmostEqual(flight.flaps[2].speed, 1.5, places=9)
+        self.assertEqual(flight.headings(), [(0, 0), (1, 90)])
+        self.assertIn("differential_rest_angle", flight.used)
+
     def test_set_points_commands_wind(self):
         flight = self.flight("led", made.columns(means=dict(amplitude=0.04, deviation_mean=0.02), wind=(0.5, 0.1)))
         self.assertEqual(control.set_point_steps(flight), ([0, 1, 6], [0, 20], [1.0, 1.3]))
@@ -69,7 +84,7 @@ class Controlled(unittest.TestCase):
         np.testing.assert_allclose(values, 4.0)
         np.testing.assert_allclose(limits, [-30, 20])
         np.testing.assert_allclose(control.command(flight, "deviation_mean")[0], math.degrees(0.02))
-        x, up = control.wind(flight)
+        x, east, up = control.wind(flight)
         np.testing.assert_allclose([x[0], up[0]], [0.5, -0.1])
         self.assertIsNone(control.wind(self.flight("still")))
         self.assertEqual(control.set_point_steps(self.flight("alone", kind="motion")), ([], [], []))

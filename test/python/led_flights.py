@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 import case_files
+from led_flight import COMMANDS
 
 F = 10.0  # [Hz]
 STEPS, SAMPLES = 20, 10  # a flap
@@ -55,8 +56,8 @@ def columns(flaps=6, means=None, velocity=(1.2, -0.4), wind=(0.0, 0.0)):
         c[name], c["v" + name], c["a" + name] = v * t + wave(series, phase), v + wave(series, phase, 1), wave(series, phase, 2)
     for name, series in (("theta_B", THETA_B), ("theta_R", THETA_R)):
         c[name], c[name + "_dot"], c[name + "_ddot"] = (wave(series, phase, order) for order in range(3))
-    c |= {name: np.zeros_like(t) for name in ("clipped", "refused", "lost")} | dict(wx=0 * t + wind[0], wz=0 * t + wind[1])
-    for name in case()["guidance"]["limits"]:
+    c |= {name: np.zeros_like(t) for name in ("clipped", "refused", "lost", "y", "vy", "ay", "wy", "roll", "yaw")} | dict(wx=0 * t + wind[0], wz=0 * t + wind[1])
+    for name in COMMANDS:
         c["applied_" + name] = np.full_like(t, (means or {}).get(name, 0.0))
     return c
 

@@ -46,7 +46,7 @@ TEST(PressureCloud, HasAPointAFacetInTheTrueAxesOfTheWing) {
   EXPECT_EQ(stamp, left.header.stamp);
   EXPECT_EQ(2u, left.width);
   const std::map<std::string, float> expected = {
-      {"x", -0.01f},  {"y", 0.02f},     {"z", 0.0f},       {"dx", 0.002f},
+      {"x", -0.01f},  {"y", 0.02f},      {"z", 0.0f},         {"dx", 0.002f},
       {"dy", 0.004f}, {"p_upper", 5.0f}, {"p_lower", -10.0f}, {"jump", 15.0f}};
   for (const auto& [name, value] : expected) {
     EXPECT_EQ(value, number(right, 0, name)) << name;
@@ -193,7 +193,7 @@ TEST_F(Viewer, ShowsColoursLegendAndTheLegendsFrame) {
     EXPECT_TRUE(marker.frame_locked);
     if (marker.type == Marker::TEXT_VIEW_FACING) ++numbers;
   }
-  EXPECT_EQ(6, numbers);  // five numbers and the title
+  EXPECT_EQ(6, numbers);         // five numbers and the title
   publishers_[2].publish(text);  // a bag that is played again
   publishers_[1].publish(pressureCloud(surface(2.0f), Side::kRight, {3, 0}));
   EXPECT_TRUE(comes([&] { return colours.size() == 2; }));

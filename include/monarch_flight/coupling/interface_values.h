@@ -23,6 +23,9 @@ bool same(const Coordinate& a, const Coordinate& b);
 /// Whether two requests are the same: key, time, what is prescribed, interface, loads and wishes.
 bool same(const Request& a, const Request& b);
 
+/// Whether it is of length 1 (to 1e-6 of its square): an attitude.
+bool isAttitude(const Quaternion& q);
+
 /// Whether every number of a message is finite; of commands guidance itself takes care.
 bool finite(const Request& request);
 bool finite(const Reply& reply);

@@ -12,6 +12,9 @@ namespace monarch_flight {
 /// One number for each command that a law uses.
 using ControlInput = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, int(kCommands), 1>;
 
+/// Names of commands, with commas between them.
+std::string namesOf(const std::vector<std::size_t>& inputs);
+
 /// Gains of a law that is periodic in the flap, for some of the commands.
 struct FeedbackGains {
   std::vector<std::size_t> inputs;  ///< commands used, indices of kCommandTable
@@ -22,9 +25,9 @@ struct FeedbackGains {
   Eigen::Index size() const { return static_cast<Eigen::Index>(inputs.size()); }
 };
 
-/// u = u_ref - K (x - x_ref) - K_c (c - u_ref) - K_i z at the samples of a flap: c the filters of the
-/// commands, z integrals that stop where they would drive a limited input further. No allocation
-/// behind the constructor.
+/// u = u_ref - K (x - x_ref) - K_c (c - u_ref) - K_i z at the samples of a flap: c the filters of
+/// the commands, z integrals that stop where they would drive a limited input further. No
+/// allocation behind the constructor.
 class FeedbackLaw {
  public:
   explicit FeedbackLaw(FeedbackGains gains);

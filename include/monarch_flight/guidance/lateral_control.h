@@ -5,8 +5,8 @@
 
 namespace monarch_flight {
 
-/// What the lateral law feeds back: side velocity relative to the air [m/s], roll, its rate, heading
-/// less the reference, its rate [rad, rad/s] and, where the wings pitch passively, half of
+/// What the lateral law feeds back: side velocity relative to the air [m/s], roll, its rate,
+/// heading less the reference, its rate [rad, rad/s] and, where the wings pitch passively, half of
 /// theta_R - theta_L and its rate.
 using LateralState = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kLateralStates, 1>;
 
@@ -21,7 +21,7 @@ class LateralControl {
   /// Whether a command of the last sample was cut.
   bool limited(const WingbeatChange& taken) { return law_.limited(taken); }
   /// Once a sample, `flaps` after the last one (0: the first): integrals (while `active`) and the
-  /// reference on its way to the heading `wanted` (nothing: the one of the start).
+  /// reference on its way (the same) to the heading `wanted` (nothing: the one of the start).
   void move(int phase, double flaps, std::optional<double> wanted, bool active);
   /// Commands of the reference, with feedback or without it.
   void refer();
@@ -45,10 +45,10 @@ class LateralControl {
   FeedbackLaw law_;
   bool begun_;
   HeadingMotion now_;
-  double side_velocity_;                        // of the last level
+  double side_velocity_;  // of the last level
   double heading_, reference_, turn_rate_;
-  double origin_;                               // heading of the start
-  double heading_sum_, side_sum_, levels_;      // since the last sample
+  double origin_;                           // heading of the start
+  double heading_sum_, side_sum_, levels_;  // since the last sample
   ControlInput commands_;
   LateralState deviation_;
 };

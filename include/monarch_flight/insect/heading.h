@@ -3,8 +3,9 @@
 
 namespace monarch_flight {
 
-/// The body as seen in axes that turn with its heading: x forward in the horizontal, y to the right,
-/// z down. Of a body that only pitches these are the inertial ones, pitch beyond 90 deg included.
+/// The body as seen in axes that turn with its heading: x forward in the horizontal, y to the
+/// right, z down. Of a body that only pitches these are the inertial ones, pitch beyond 90 deg
+/// included.
 struct HeadingMotion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< over ground [m/s]
   /// Time derivative of these components, the axes' turning included [m/s^2].

@@ -12,12 +12,13 @@
 
 namespace monarch_flight {
 
-/// What is asked of a controller's design (docs/guidance.md).
 struct ControlTrim;
 
+/// What is asked of a controller's design (docs/guidance.md).
 struct ControlOptions {
   int samples = 10;                                                           ///< of the law a flap
   std::vector<std::size_t> inputs{kAmplitudeCommand, kDeviationMeanCommand};  ///< of kCommandTable
+  bool lateral_asked = false;  ///< there must be a lateral law
   /// Of the lateral law, where the wings are independent and y, roll and yaw free.
   std::vector<std::size_t> lateral_inputs{kDifferentialDeviation, kDifferentialRestAngle};
   double turn = M_PI / 36.0;                    ///< of the heading at most [rad a flap]

@@ -21,6 +21,9 @@ inline constexpr const char* kStateUnits[kFlapStates] = {
 /// Scale of each state: changes of it count alike.
 FlapState trimScales();
 
+/// Whether both wings do the same and the body only pitches.
+bool inPlane(const FlapState& state);
+
 FlapState flapState(const Interface& interface);
 /// Its time derivative.
 FlapState flapRates(const Interface& interface);
