@@ -12,10 +12,13 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FLY = os.path.join(ROOT, "scripts", "fly")
 EVERY = 25  # steps between checkpoints
-WATCHDOG = {"quasi_steady": 4.0, "navier_stokes": 20.0}  # s; two processes of a flow share a busy core
+# s; two processes of a flow share a busy core
+WATCHDOG = {"quasi_steady": 4.0, "two_wings": 4.0, "navier_stokes": 20.0, "navier_stokes_two_wings": 30.0}
 UNHARMED = 60.0  # s: what is left of a flight, on a busy machine
 AIR = {"quasi_steady": ("fluid:=quasi_steady", "flaps:=0.5", "steps_per_flap:=400"),
        "navier_stokes": ("fluid:=navier_stokes", "grid:=preview", "flaps:=0.25", "steps_per_flap:=300", "ranks:=2")}
+AIR.update({"two_wings": (*AIR["quasi_steady"], "wings:=independent"),
+            "navier_stokes_two_wings": (*AIR["navier_stokes"], "wings:=independent")})
 STARTED = r"process\[(?:monarch_flight/)?([a-z_]+?)(?:-\d+)?\]: started with pid \[(\d+)\]"
 SHIFTED_CLOCK = os.path.join(ROOT, "test", "flights", "shifted_clock.c")
 
@@ -171,6 +174,13 @@ FAULTS = (
        Fault("SIGKILL mpirun", sent("fluid", signal.SIGKILL), "node monarch_flight/fluid died",
              limit=60.0, air="navier_stokes"),
        Fault("SIGINT run", lambda flight: flight.process.send_signal(signal.SIGINT), "stopped by hand")]
+    + [Fault("SIGKILL fluid_left", sent("fluid_left", signal.SIGKILL), "node monarch_flight/fluid_left died", air="two_wings"),
+       Fault("SIGSTOP fluid_left, 1 s", stopped("fluid_left", 1.0), None, limit=UNHARMED, air="two_wings"),
+       Fault("SIGSTOP fluid_left, too long", stopped("fluid_left", 60.0), "the fluid_left node", limit=75.0, air="two_wings"),
+       Fault("disk full: checkpoint of fluid_left", full("fluid_left", 1000), "fluid_left.h5.active cannot be written",
+             air="two_wings"),
+       Fault("SIGKILL mpirun of fluid_left", sent("fluid_left", signal.SIGKILL), "node monarch_flight/fluid_left died",
+             limit=90.0, air="navier_stokes_two_wings")]
     + [Fault("SIGSTOP %s, 1 s" % node, stopped(node, 1.0), None, limit=UNHARMED) for node in NODES]
     + [Fault("SIGSTOP %s, too long" % node, stopped(node, 60.0), words, limit=75.0)
        for node, words in (("fluid", "the fluid node"), ("flight", "the flight node"), ("wing", "the wing node"),
@@ -210,7 +220,7 @@ class Bench:
         return self.hashes[air]
 
     def environment(self, fault, folder):
-        env = {} if fault.air == "navier_stokes" else {"MONARCH_ANSWER_DELAY_MS": "8"}
+        env = {} if flows(fault.air) else {"MONARCH_ANSWER_DELAY_MS": "8"}
         if "clock" in fault.environment:
             with open(folder + ".clock", "w") as f:
                 f.write("0")
@@ -226,7 +236,7 @@ class Bench:
         result = {"good": False, "unharmed": False, "end_s": None, "again": None, "said": "", "verdict": ""}
         expected = self.undisturbed(fault.air)
         flight = Flight(folder, (*self.keys(fault.air), "out:=" + folder), self.environment(fault, folder))
-        last = 70 if fault.air == "navier_stokes" else 190
+        last = 70 if flows(fault.air) else 190
         flight.wait_for_step(self.random.randint(2 * EVERY + 2, last - 10))
         time.sleep(self.random.uniform(0.0, 0.02))
         begin = time.monotonic()
@@ -271,8 +281,12 @@ class Bench:
         return result
 
 
+def flows(air):
+    return air.startswith("navier_stokes")
+
+
 def ranks(air):
-    return ("ranks:=2",) if air == "navier_stokes" else ()
+    return ("ranks:=2",) if flows(air) else ()
 
 
 def tidy(line, folder):

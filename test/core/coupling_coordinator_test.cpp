@@ -200,6 +200,17 @@ TEST_F(Coordination, AnUnconvergedStepEndsTheRunWithADiagnosis) {
   EXPECT_EQ(f.wing->count(Phase::kAbort), 1);
 }
 
+TEST_F(Coordination, AnOrientationThatIsNoAttitudeEndsTheRun) {
+  f_.flight->change = [](Reply& reply) {
+    if (reply.key.step == 4) reply.interface.body.q_IB.coeffs().setZero();  // forgotten
+  };
+  const CoupledOutcome outcome = f_.run();
+  EXPECT_FALSE(outcome.complete);
+  EXPECT_EQ(outcome.failure,
+            "flight, step 4, iteration 0, ITERATE: the orientation in the answer is not a unit "
+            "quaternion");
+}
+
 TEST_F(Coordination, NonFiniteAnswersEndTheRunWithTheirPlace) {
   f_.wing->change = [](Reply& reply) {
     if (reply.key.step == 4)
