@@ -213,7 +213,8 @@ class Bench:
     def undisturbed(self, air):
         if air not in self.hashes:
             folder = os.path.join(self.work, "undisturbed_" + air)
-            flight = Flight(folder, (*self.keys(air), "in_process:=true", "out:=" + folder), {})
+            whole = () if air == "navier_stokes_two_wings" else ("in_process:=true",)  # two flows have a node each
+            flight = Flight(folder, (*self.keys(air), *whole, "out:=" + folder), {})
             if flight.end(600) != 0:
                 raise SystemExit("break_it: the undisturbed flight failed:\n" + flight.output())
             self.hashes[air] = summary(folder)["state_sha256"]

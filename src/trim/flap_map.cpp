@@ -78,11 +78,16 @@ FlapMap::FlapMap(const Case& c, const std::string& config_dir,
         "wing_pitch");
   }
   const bool sideways = c.free[kY] || c.free[kRoll] || c.free[kYaw] || c.free[kThetaL];
-  if (sideways && run_in > 0) {
+  if (sideways && c.fluid == FluidKind::kNavierStokes) {
+    faults.push_back(
+        "fluid: must be quasi_steady for independent wings, whose flight leaves the plane of "
+        "symmetry "
+        "while the run-in of a wake stays in it; give fluid:=quasi_steady, or wings:=mirrored");
+  } else if (sideways && run_in > 0) {
     faults.push_back(
         "run_in = " + std::to_string(run_in) +
         ": must be 0 for independent wings, the run-in flies in the plane of symmetry; "
-        "give run_in:=0 and fluid:=quasi_steady, or wings:=mirrored");
+        "give run_in:=0, or wings:=mirrored");
   }
   if (run_in < 0) {
     faults.push_back("run_in = " + std::to_string(run_in) + ": must be >= 0 flaps; 1 is usual");

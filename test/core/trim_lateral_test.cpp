@@ -52,6 +52,19 @@ TEST(LateralTrim, ModesAreThoseOfTheFlightAndApartFromTheOthers) {
   EXPECT_GE(lateral, 4);
 }
 
+TEST(LateralTrim, AWakeHasNoRunInForIt) {
+  const Case c =
+      loadCase("climb_trimmed", {{"wings", "independent"}, {"fluid", "navier_stokes"}}, CONFIG_DIR);
+  for (int run_in : {0, 1}) {
+    try {
+      FlapMap(c, CONFIG_DIR, {}, run_in);
+      FAIL() << run_in;
+    } catch (const InputError& e) {
+      expectHas(e.what(), "fluid: must be quasi_steady for independent wings");
+    }
+  }
+}
+
 /// One design for all.
 struct Designed {
   Designed() : c(inSpace()) {
