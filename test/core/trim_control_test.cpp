@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "case_fixture.h"
+#include "control_fixture.h"
 #include "monarch_flight/trim/command.h"
 #include "monarch_flight/trim/controlled_flight.h"
 #include "monarch_flight/trim/trim.h"
@@ -210,11 +210,8 @@ TEST_F(ControlCase, SectionIsReadAsItWasDesigned) {
   for (const char* part : {"status: computed by scripts/trim control:=true", "quasi-steady air",
                            "200 steps a flap", "Floquet multipliers"})
     expectHas(section, part);
-  std::string text = d.c.resolved_yaml;
-  const std::size_t from = text.find("guidance:"), to = text.find("\noutput:");
-  ASSERT_LT(from, to);
-  text.erase(from, to + 1 - from);
-  const Case read = caseFromText(text + section, "controlled", {}, CONFIG_DIR);
+  const std::string text = withGuidance(d.c, section);
+  const Case read = caseFromText(text, "controlled", {}, CONFIG_DIR);
   ASSERT_TRUE(read.guidance.controller);
   const ControllerSettings &a = *read.guidance.controller, &b = d.design.settings;
   EXPECT_EQ(a.samples, b.samples);
@@ -228,29 +225,19 @@ TEST_F(ControlCase, SectionIsReadAsItWasDesigned) {
   // The resolved case is a case again.
   const Case again = caseFromText(read.resolved_yaml, "again", {}, CONFIG_DIR);
   EXPECT_EQ(again.sha256, read.sha256);
-  const auto refusal = [&](const std::string& what, const std::string& by) -> std::string {
-    std::string changed = text + section;
-    changed.replace(changed.find(what), what.size(), by);
-    try {
-      caseFromText(changed, "changed", {}, CONFIG_DIR);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
-  };
-  expectHas(refusal("samples: 10", "samples: 7"), "must divide the 200 steps of a flap");
+  expectHas(refusal(text, "samples: 10", "samples: 7"), "must divide the 200 steps of a flap");
   // Names first and alone: what they mean for the rows is not known.
   const auto alone = [&](const std::string& what, const std::string& by, const std::string& told) {
-    const std::string why = refusal(what, by);
+    const std::string why = refusal(text, what, by);
     expectHas(why, "changed: 1 fault\n");
     expectHas(why, told);
   };
   alone("inputs: amplitude, dev", "inputs: amplitud, dev", "'amplitud': must be commands of");
   alone("inputs: amplitude, deviation_mean", "inputs: ','", "',': must name a command");
   alone("    inputs: amplitude", "    input: amplitude", "controller/input is not a known key");
-  expectHas(refusal("time_constant: 0.06", "time_constant: 0.2"), "gains were made");
-  expectHas(refusal("      flaps: [0]", "      flaps: [0, 3]"), "must be as many");
-  expectHas(refusal("pitch: true", "pitch: false"), "no free flight to control");
+  expectHas(refusal(text, "time_constant: 0.06", "time_constant: 0.2"), "gains were made");
+  expectHas(refusal(text, "      flaps: [0]", "      flaps: [0, 3]"), "must be as many");
+  expectHas(refusal(text, "pitch: true", "pitch: false"), "no free flight to control");
 }
 
 TEST_F(ControlCase, WrongKeysAreRefused) {

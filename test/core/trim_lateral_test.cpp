@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "case_fixture.h"
+#include "control_fixture.h"
 #include "monarch_flight/trim/control_design.h"
 #include "monarch_flight/trim/controlled_flight.h"
 #include "monarch_flight/trim/trim.h"
@@ -180,11 +180,7 @@ class LateralCase : public CaseTest {};
 
 TEST_F(LateralCase, SectionIsReadAsItWasDesigned) {
   const Designed& d = Designed::get();
-  std::string text = d.c.resolved_yaml;
-  const std::size_t from = text.find("guidance:"), to = text.find("\noutput:");
-  ASSERT_LT(from, to);
-  text.erase(from, to + 1 - from);
-  text += guidanceSection(d.c, d.design);
+  const std::string text = withGuidance(d.c, guidanceSection(d.c, d.design));
   const Case read = caseFromText(text, "controlled", {}, CONFIG_DIR);
   ASSERT_TRUE(read.guidance.controller && read.guidance.controller->lateral);
   const LateralSettings &a = *read.guidance.controller->lateral, &b = *d.design.settings.lateral;
@@ -194,22 +190,12 @@ TEST_F(LateralCase, SectionIsReadAsItWasDesigned) {
   EXPECT_LT((a.turn_commands - b.turn_commands).norm(), 1e-7 * b.turn_commands.norm());
   EXPECT_NEAR(a.turn, b.turn, 1e-8);
   EXPECT_EQ(caseFromText(read.resolved_yaml, "again", {}, CONFIG_DIR).sha256, read.sha256);
-  const auto refusal = [&](const std::string& what, const std::string& by) -> std::string {
-    std::string changed = text;
-    changed.replace(changed.find(what), what.size(), by);
-    try {
-      caseFromText(changed, "changed", {}, CONFIG_DIR);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
-  };
-  expectHas(refusal("wings: independent", "wings: mirrored"), "wings: independent");
-  expectHas(refusal("inputs: differential_deviation,", "inputs: deviation_mean,"),
+  expectHas(refusal(text, "wings: independent", "wings: mirrored"), "wings: independent");
+  expectHas(refusal(text, "inputs: differential_deviation,", "inputs: deviation_mean,"),
             "'deviation_mean': must be commands of differential_amplitude");
-  expectHas(refusal("      flaps: [0]", "      headings_deg: [0, 1]\n      flaps: [0]"),
+  expectHas(refusal(text, "      flaps: [0]", "      headings_deg: [0, 1]\n      flaps: [0]"),
             "headings_deg has 2 values");
-  expectHas(refusal("roll: true", "roll: false"), "needs wings: independent, and free/y");
+  expectHas(refusal(text, "roll: true", "roll: false"), "needs wings: independent, and free/y");
   std::string plane = text.substr(0, text.find("    lateral:"));
   plane.replace(plane.find("      flaps: [0]"), 16, "      headings_deg: [5]\n      flaps: [0]");
   EXPECT_THROW(caseFromText(plane, "changed", {}, CONFIG_DIR), InputError);
