@@ -1,8 +1,9 @@
 # Short whole flights through scripts/fly, one file test/flights/*_test.py each. `ctest -L flight` runs them.
 file(GLOB flight_tests CONFIGURE_DEPENDS test/flights/*_test.py)
-# A guidance node of one's own in C++, which own_guidance_test.py flies.
+# A guidance node of one's own in C++, which own_guidance_test.py and hostile_test.cpp fly.
 add_executable(own_guidance_node test/flights/own_guidance_node.cpp)
 target_link_libraries(own_guidance_node PRIVATE monarch_ros_io)
+add_dependencies(ros_hostile_test own_guidance_node)
 
 foreach(source ${flight_tests})
   get_filename_component(name ${source} NAME_WE)

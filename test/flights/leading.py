@@ -22,12 +22,12 @@ class Leader(flying.FlightTest):
         import rospy
         rospy.init_node("person", disable_signals=True)
 
-    def held_flight(self, *keys):
+    def held_flight(self, *keys, out=None):
         """A flight that takes commands, held at its start, and how to send it one."""
         import rospy
         from monarch_flight.msg import WingbeatCommand
         publisher = rospy.Publisher("/monarch_flight/command", WingbeatCommand, queue_size=10)
-        process = self.start(*keys, "guidance:=commands", "paused:=true", "out:=" + self.out(),
+        process = self.start(*keys, "guidance:=commands", "paused:=true", "out:=" + (out or self.out()),
                              ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")
         self.good("pause")
         self.wait_for(publisher.get_num_connections, 20, "the coordinator to listen")

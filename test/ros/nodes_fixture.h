@@ -11,7 +11,7 @@
 
 namespace monarch_flight {
 
-/// Parameters on the master and the four nodes.
+/// Parameters on the master and the nodes.
 class Nodes : public testing::Test {
  protected:
   Nodes() {
@@ -22,10 +22,10 @@ class Nodes : public testing::Test {
     ros::param::set("/monarch_flight/flaps", 0.1);
     ros::param::set("/monarch_flight/out", folder / "run");
   }
-  std::unique_ptr<Process> start(const std::string& name, const std::string& log = "") {
+  std::unique_ptr<Process> start(const std::string& name, const std::string& log = "",
+                                 const std::vector<std::string>& arguments = {}) {
     const std::string file = folder / ((log.empty() ? name : log) + ".log");
-    return std::make_unique<Process>(std::string(NODE_DIR) + "/" + name, std::vector<std::string>(),
-                                     file);
+    return std::make_unique<Process>(std::string(NODE_DIR) + "/" + name, arguments, file);
   }
   void startAll() {
     coordinator = start("coordinator");
@@ -49,7 +49,7 @@ class Nodes : public testing::Test {
   }
 
   TemporaryFolder folder;
-  std::unique_ptr<Process> coordinator, fluid, flight, wing;
+  std::unique_ptr<Process> coordinator, fluid, fluid_left, flight, wing, guidance;
 };
 
 }  // namespace monarch_flight
