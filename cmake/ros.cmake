@@ -36,7 +36,7 @@ add_library(monarch_ros_io SHARED ${ros_sources})
 target_include_directories(monarch_ros_io PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 #catkin_lint: ignore_once external_directory
 target_include_directories(monarch_ros_io SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include)
-target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES} PRIVATE OpenSSL::Crypto ${CMAKE_DL_LIBS})
+target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES} PRIVATE OpenSSL::Crypto)
 add_dependencies(monarch_ros_io monarch_flight_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 target_compile_definitions(monarch_ros_io PRIVATE
   MONARCH_SOURCE_SHARE="${CMAKE_CURRENT_SOURCE_DIR}")
@@ -45,11 +45,12 @@ target_compile_definitions(monarch_ros_io PRIVATE
 # `flight` and `wing` are also layers.
 file(GLOB node_sources CONFIGURE_DEPENDS src/nodes/*.cpp)
 set(NODE_TARGETS)
+add_library(monarch_loopback OBJECT src/loopback/bind.cpp)
 foreach(source ${node_sources})
   get_filename_component(name ${source} NAME_WE)
   add_executable(node_${name} ${source})
   set_target_properties(node_${name} PROPERTIES OUTPUT_NAME ${name} INSTALL_RPATH "$ORIGIN/..")
-  target_link_libraries(node_${name} PRIVATE monarch_ros_io)
+  target_link_libraries(node_${name} PRIVATE monarch_ros_io monarch_loopback ${CMAKE_DL_LIBS})
   list(APPEND NODE_TARGETS node_${name})
 endforeach()
 add_custom_target(nodes DEPENDS ${NODE_TARGETS})

@@ -64,7 +64,7 @@ class Pilot:
         self.lock = threading.Lock()  # joystick and keyboard have a thread each
         self.axes, self.buttons = [], []
         self.command, self.sent = WingbeatCommand(), WingbeatCommand()
-        self.publisher = rospy.Publisher("/monarch_flight/command", WingbeatCommand, latch=True,
+        self.publisher = rospy.Publisher("monarch_flight/command", WingbeatCommand, latch=True,
                                          queue_size=10, tcp_nodelay=True)
         rospy.Subscriber("joy", Joy, lambda joy: self.on_joystick(joy.axes, joy.buttons))
 

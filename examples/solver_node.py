@@ -30,20 +30,40 @@ import time
 if "ROS_IP" not in os.environ:
     os.environ.setdefault("ROS_HOSTNAME", "localhost")
 
-import rospy  # noqa: E402  (reads the address when it is imported)
+# Where the launch files put a run that is alone.
+os.environ.setdefault("ROS_NAMESPACE", "/monarch_flight")
+
+import rospy  # noqa: E402  (reads address and namespace when it is imported)
 import yaml
 from monarch_flight.msg import (CouplingKey, Hello, ParticipantReply, ParticipantRequest,
                                 WingbeatCommand)
 from std_msgs.msg import String
 
-NAMESPACE = "/monarch_flight"
 SEAL = 32  # bytes at the end of every message
-TOKEN = os.environ.get("MONARCH_FLIGHT_TOKEN", "").encode()
 
 
-def seal_of(topic, data):
+def token_of_run(limit=30):
+    """What the file of the parameter token_file holds; the coordinator makes it in the beginning."""
+    path = rospy.get_param("token_file", "")
+    end = time.monotonic() + limit
+    while path:
+        try:
+            with open(path, "rb") as f:
+                facts = os.fstat(f.fileno())
+                if facts.st_uid != os.geteuid() or facts.st_mode & 0o077:
+                    raise RuntimeError("token_file = %s: must be yours alone (chmod 600)" % path)
+                return f.read().rstrip()
+        except FileNotFoundError:
+            if time.monotonic() > end or rospy.is_shutdown():
+                raise RuntimeError("token_file = %s: there is no such file after %g s: is the coordinator "
+                                   "running?" % (path, limit)) from None
+            time.sleep(0.02)
+    return b""
+
+
+def seal_of(token, topic, data):
     """Of a serialized message, whose own seal is left out."""
-    return hmac.new(TOKEN, topic.encode() + b"\0" + data[:-SEAL], hashlib.sha256).digest()
+    return hmac.new(token, topic.encode() + b"\0" + data[:-SEAL], hashlib.sha256).digest()
 
 
 def serialized(message):
@@ -103,16 +123,18 @@ class SolverNode:
     def __init__(self, role, solver):
         self.role = role
         self.solver = GuidanceSolver(solver) if role == "guidance" else solver
-        self.place = "%s/%s/" % (NAMESPACE, role)
         self.lock = threading.Lock()  # each connection has a thread of its own
         self.greeting = self.cache = self.kept = self.case = None
         self.case_known, self.over = threading.Event(), threading.Event()
         self.refused = 0
         rospy.init_node(role, disable_signals=True)
+        self.place = rospy.resolve_name(role) + "/"
+        self.token = token_of_run()
+        self.checkpoints = None
         self.replies = rospy.Publisher(self.place + "reply", ParticipantReply, queue_size=8,
                                        tcp_nodelay=True)
         self.hello = rospy.Publisher(self.place + "hello", Hello, latch=True, queue_size=8)
-        rospy.Subscriber(NAMESPACE + "/case", String, self.on_case)
+        rospy.Subscriber("case", String, self.on_case)
         self.listen("coordinator_hello", Hello, self.on_hello)
         self.listen("request", ParticipantRequest, self.on_request)
 
@@ -123,7 +145,7 @@ class SolverNode:
         def check(raw):
             data = raw._buff
             with self.lock:
-                if not hmac.compare_digest(seal_of(topic, data), data[-SEAL:]):
+                if not hmac.compare_digest(seal_of(self.token, topic, data), data[-SEAL:]):
                     self.refused += 1
                     return
                 message = kind()
@@ -134,7 +156,7 @@ class SolverNode:
 
     def send(self, publisher, name, message):
         message.seal = bytes(SEAL)
-        message.seal = seal_of(self.place + name, serialized(message))
+        message.seal = seal_of(self.token, self.place + name, serialized(message))
         publisher.publish(message)
 
     def on_case(self, message):
@@ -186,6 +208,7 @@ class SolverNode:
     def compute(self, request):
         try:
             if request.key.phase == CouplingKey.START:
+                self.checkpoints = request.checkpoints
                 return self.solver.start(self.resolved_case(), request)
             if request.key.phase == CouplingKey.ITERATE:
                 return self.solver.iterate(request)
@@ -198,10 +221,10 @@ class SolverNode:
 
     def keep(self, request):
         """CHECKPOINT and RESTORE, by `save` and `restore` (bytes) of a solver that has a state. The
-        folder comes from a parameter of the coordinator, never from a message."""
+        folder is that of the sealed START."""
         key, restoring = request.key, request.key.phase == CouplingKey.RESTORE
         folder = "step_%010d%s" % (key.step, "" if restoring else ".active")
-        path = os.path.join(rospy.get_param(NAMESPACE + "/checkpoints"), folder,
+        path = os.path.join(self.checkpoints, folder,
                             self.role + ".state")
         if restoring:
             with open(path, "rb") as f:
@@ -216,9 +239,9 @@ class SolverNode:
     def resolved_case(self):
         """The coordinator publishes it, latched, before it asks for anything."""
         if not self.case_known.wait(30):
-            raise RuntimeError("no case on %s/case within 30 s" % NAMESPACE)
+            raise RuntimeError("no case on %s within 30 s" % rospy.resolve_name("case"))
         if hashlib.sha256(self.case.encode()).hexdigest() != self.greeting.case_sha256:
-            raise RuntimeError("the text on %s/case is not the case of the run" % NAMESPACE)
+            raise RuntimeError("the text on %s is not the case of the run" % rospy.resolve_name("case"))
         return yaml.load(self.case, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
     def serve(self):

@@ -29,7 +29,7 @@ boost::shared_ptr<ros::M_string> latchedHeader(const Message& message) {
   (*header)["type"] = ros::message_traits::datatype(message);
   (*header)["md5sum"] = ros::message_traits::md5sum(message);
   (*header)["message_definition"] = ros::message_traits::definition(message);
-  (*header)["callerid"] = std::string(kNamespace) + "/coordinator";
+  (*header)["callerid"] = RunNames().topic("coordinator");
   (*header)["latching"] = "1";
   return header;
 }

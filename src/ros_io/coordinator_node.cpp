@@ -9,7 +9,6 @@
 #include "monarch_flight/ros_io/guidance_by_node.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
-#include "monarch_flight/ros_io/ros_output.h"
 #include "monarch_flight/run/federation.h"
 
 namespace monarch_flight {
@@ -32,23 +31,29 @@ std::uint64_t randomRunId() {
   return (static_cast<std::uint64_t>(random()) << 32 | random()) | 1u;  // never 0
 }
 
-RunParameters readParameters() {
-  XmlRpc::XmlRpcValue values = parametersOf(kNamespace);
-  return runParameters(values, std::string(kNamespace) + "/");
+RunParameters readParameters(const RunNames& names) {
+  XmlRpc::XmlRpcValue values = parametersOfRun(names);
+  return runParameters(values, names.topic(""));
 }
 
 }  // namespace
 
 CoordinatorNode::CoordinatorNode(const StopFlag& stop)
-    : stop_(stop), parameters_(readParameters()), case_(loadCase(parameters_)), node_(kNamespace) {
+    : stop_(stop),
+      names_(RunNames::ofThisNode()),
+      parameters_(readParameters(names_)),
+      case_(loadCase(parameters_)),
+      node_(names_.space()),
+      token_(names_) {
   run_.id = randomRunId();
   run_.limits = limitsFor(case_.watchdog_s);
   run_.stop = &stop_;
-  if (Token::fromEnvironment().empty()) {
-    ROS_WARN("%s is not set: every node of this master can take part in the run", Token::kVariable);
+  if (token_.token().empty()) {
+    ROS_WARN("%s is not set: every node of this master can take part in the run",
+             names_.topic(kTokenFileKey).c_str());
   }
   for (Role role : nodesOf(case_)) {
-    const LockstepIdentity identity{role, case_.name, case_.sha256, Token::fromEnvironment()};
+    const LockstepIdentity identity{role, case_.name, case_.sha256, token_.token()};
     nodes_.push_back(std::make_unique<RosParticipant>(node_, identity, run_));
   }
 }
@@ -56,6 +61,7 @@ CoordinatorNode::CoordinatorNode(const StopFlag& stop)
 int CoordinatorNode::run() {
   try {
     for (const auto& participant : nodes_) participant->connect();
+    token_.remove();
     const int code = fly();
     reportIgnored();
     ros::WallDuration(0.2).sleep();  // the last messages are still on their way to the listeners
@@ -67,18 +73,21 @@ int CoordinatorNode::run() {
 }
 
 int CoordinatorNode::fly() {
-  RosOutput topics(node_);
+  topics_ = std::make_unique<RosOutput>(node_);
   const std::string out = outputDirectory(parameters_, case_);
-  FlightRun run(case_, out, !parameters_.resume.empty(), parameters_.ranks, {&topics});
-  node_.setParam(kCheckpointsKey, checkpointFolder(out));
+  run_.checkpoints = checkpointFolder(out);
+  FlightRun run(case_, out, !parameters_.resume.empty(), parameters_.ranks, names_,
+                {topics_.get()});
   FlightControl control(
       node_, case_, parameters_.paused, [this] { keepAlive(); }, stop_);
   run.addSink(control);
-  const auto guidance = makeGuidance(checkpointFolder(out));
+  const auto guidance = makeGuidance(run_.checkpoints);
   Participants all{};
   for (const auto& node : nodes_) all[static_cast<std::size_t>(node->role())] = node.get();
   all[static_cast<std::size_t>(Role::kGuidance)] = guidance.get();
-  return run.fly(run_.id, all, control, stop_);
+  const int code = run.fly(run_.id, all, control, stop_);
+  if (code != kExitComplete) tellRosout("flight failed: " + run.failure());
+  return code;
 }
 
 /// In this process, led by the topic `command` or by a node where the case says so.
@@ -120,6 +129,7 @@ void CoordinatorNode::keepAlive() {
   run_.queue.callAvailable(kHeldWait);
   nodes_[0]->requireEveryone(" while the run is held");
   nodes_[0]->greetEveryone();
+  topics_->keepAlive();
 }
 
 void CoordinatorNode::dismiss() noexcept {

@@ -29,7 +29,7 @@ diagnostic_msgs::KeyValue count(const char* key, std::uint64_t value) {
 DiagnosticStatus messages(const IgnoredMessages& ignored) {
   const bool strangers = ignored.foreign + ignored.malformed + ignored.forged > 0;
   DiagnosticStatus out;
-  out.name = "coordinator: messages";
+  out.name = "messages";
   out.hardware_id = "monarch_flight";
   out.level = strangers ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
   out.message =
@@ -42,7 +42,7 @@ DiagnosticStatus messages(const IgnoredMessages& ignored) {
 
 DiagnosticStatus guidance(const GuidanceReport& report) {
   DiagnosticStatus out;
-  out.name = "coordinator: guidance";
+  out.name = "guidance";
   out.hardware_id = "monarch_flight";
   const bool told = report.lost || report.clipped + report.refused > 0;
   out.level = told ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
@@ -62,8 +62,8 @@ DiagnosticStatus guidance(const GuidanceReport& report) {
 diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep& step,
                                                              const ros::Time& stamp) const {
   DiagnosticStatus coupling, solvers;
-  coupling.name = "coordinator: coupling";
-  solvers.name = "coordinator: solvers";
+  coupling.name = "coupling";
+  solvers.name = "solvers";
   coupling.hardware_id = solvers.hardware_id = "monarch_flight";
   coupling.level = step.retried() ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
   coupling.message = step.retried()    ? "converged at the second attempt"
@@ -98,6 +98,7 @@ diagnostic_msgs::DiagnosticArray FlightMessages::diagnostics(const CommittedStep
   diagnostic_msgs::DiagnosticArray out;
   out.header.stamp = stamp;
   out.status = {coupling, solvers, messages(step.ignored), guidance(step.guidance)};
+  for (DiagnosticStatus& status : out.status) status.name = names_.diagnosticPrefix() + status.name;
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "monarch_flight/flight/multibody_dynamics.h"
 #include "monarch_flight/ros_io/step_conversions.h"
 #include "monarch_flight/viz/frames.h"
+#include "monarch_flight/viz/model_markers.h"
 #include "monarch_flight/viz/pressure_cloud.h"
 #include "monarch_flight/viz/urdf.h"
 #include "monarch_flight/viz/vortex_cloud.h"
@@ -80,6 +81,29 @@ geometry_msgs::WrenchStamped wrench(const PerWing<Loads>& all, bool left, const 
   return out;
 }
 
+/// Frames that a message names.
+template <class Message>
+auto nameFrames(Message& message, const RunNames& names)
+    -> std::enable_if_t<ros::message_traits::HasHeader<Message>::value> {
+  if (!message.header.frame_id.empty())
+    message.header.frame_id = names.frame(message.header.frame_id);
+  if constexpr (std::is_same_v<Message, nav_msgs::Odometry>)
+    message.child_frame_id = names.frame(message.child_frame_id);
+}
+template <class Message>
+auto nameFrames(Message&, const RunNames&)
+    -> std::enable_if_t<!ros::message_traits::HasHeader<Message>::value> {}
+void nameFrames(visualization_msgs::MarkerArray& message, const RunNames& names) {
+  for (visualization_msgs::Marker& marker : message.markers)
+    marker.header.frame_id = names.frame(marker.header.frame_id);
+}
+void nameFrames(tf2_msgs::TFMessage& message, const RunNames& names) {
+  for (geometry_msgs::TransformStamped& transform : message.transforms) {
+    transform.header.frame_id = names.frame(transform.header.frame_id);
+    transform.child_frame_id = names.frame(transform.child_frame_id);
+  }
+}
+
 template <class Message>
 StampedMessage prototype(const char* topic, bool latched = false) {
   return {topic, ros::Time(), Message(), latched};
@@ -97,8 +121,9 @@ ros::Time stampOf(std::uint32_t step, const TimeGrid& time) {
                    static_cast<std::uint32_t>(ns % 1000000000ull));
 }
 
-FlightMessages::FlightMessages(const Case& c)
+FlightMessages::FlightMessages(const Case& c, const RunNames& names)
     : case_(c),
+      names_(names),
       path_stride_(stride(c.time, kPathPosesPerFlap)),
       diagnostics_stride_(stride(c.time, kDiagnosticsPerFlap)) {
   path_.header.frame_id = frames::kWorld;
@@ -112,6 +137,7 @@ std::vector<StampedMessage> FlightMessages::topics() const {
       prototype<sensor_msgs::JointState>(topics::kJointStates),
       prototype<diagnostic_msgs::DiagnosticArray>(topics::kDiagnostics),
       prototype<std_msgs::String>(topics::kCase, true),
+      prototype<visualization_msgs::MarkerArray>(topics::kModel, true),
       prototype<FlightState>(topics::kState),
       prototype<nav_msgs::Odometry>(topics::kOdometry),
       prototype<nav_msgs::Path>(topics::kPath, true),
@@ -126,7 +152,16 @@ std::vector<StampedMessage> FlightMessages::topics() const {
   if (!case_.mirrored) {
     out.push_back(prototype<sensor_msgs::PointCloud2>(topics::kLeftPressure, true));
   }
+  name(out);
   return out;
+}
+
+/// Puts the names of the run in place of the plain ones.
+void FlightMessages::name(std::vector<StampedMessage>& messages) const {
+  for (StampedMessage& message : messages) {
+    message.topic = names_.topic(message.topic);
+    std::visit([this](auto& content) { nameFrames(content, names_); }, message.message);
+  }
 }
 
 std::vector<StampedMessage> FlightMessages::opening() const {
@@ -135,7 +170,11 @@ std::vector<StampedMessage> FlightMessages::opening() const {
   fixed.transforms = staticTransforms(case_.insect, stamp);
   std_msgs::String text;
   text.data = case_.resolved_yaml;
-  return {{topics::kTfStatic, stamp, fixed, true}, {topics::kCase, stamp, text, true}};
+  std::vector<StampedMessage> out = {{topics::kTfStatic, stamp, fixed, true},
+                                     {topics::kCase, stamp, text, true},
+                                     {topics::kModel, stamp, modelMarkers(case_.insect), true}};
+  name(out);
+  return out;
 }
 
 std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
@@ -161,6 +200,7 @@ std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
     out.push_back({topics::kDiagnostics, stamp, diagnostics(step, stamp)});
   }
   addPictures(step, stamp, out);
+  name(out);
   return out;
 }
 
@@ -214,8 +254,9 @@ void FlightMessages::memory(StateVisitor& state) {
   }
 }
 
-MessageSink::MessageSink(const Case& c, std::vector<MessageOutput*> outputs, StateVisitor* resumed)
-    : case_(c), messages_(c), outputs_(std::move(outputs)) {
+MessageSink::MessageSink(const Case& c, const RunNames& names, std::vector<MessageOutput*> outputs,
+                         StateVisitor* resumed)
+    : case_(c), names_(names), messages_(c, names), outputs_(std::move(outputs)) {
   if (resumed != nullptr) messages_.memory(*resumed);
   const std::vector<StampedMessage> topics = messages_.topics();
   for (MessageOutput* output : outputs_) output->open(topics);
@@ -233,7 +274,7 @@ void MessageSink::onCheckpoint(StateVisitor& state) {
 void MessageSink::onStep(const CommittedStep& step) { write(messages_.of(step)); }
 
 void MessageSink::onReset() {
-  messages_ = FlightMessages(case_);
+  messages_ = FlightMessages(case_, names_);
   for (MessageOutput* output : outputs_) output->restart();
   write(messages_.opening());
 }

@@ -12,15 +12,17 @@
 namespace monarch_flight {
 
 FlightRun::FlightRun(const Case& c, const std::string& out, bool resume, int ranks,
-                     std::vector<MessageOutput*> listeners)
+                     const RunNames& names, std::vector<MessageOutput*> listeners)
     : case_(c),
       checkpoints_(c, out, resume, ranks),
-      fields_(c.output.fields_every > 0 ? makeFieldOutput(c, out + "/fields", checkpoints_.outputs()) : nullptr),
+      fields_(c.output.fields_every > 0
+                  ? makeFieldOutput(c, out + "/fields", checkpoints_.outputs())
+                  : nullptr),
       files_(c, out, &checkpoints_),
       progress_(std::cout, isatty(STDOUT_FILENO) != 0, c.time) {
   openBag(listeners);
   if (!listeners.empty())
-    messages_ = std::make_unique<MessageSink>(c, listeners, checkpoints_.outputs());
+    messages_ = std::make_unique<MessageSink>(c, names, listeners, checkpoints_.outputs());
   std::cout << "case " << c.name << ": " << c.time.steps << " steps of " << c.time.dt
             << " s; results in " << out << std::endl;
   for (const std::string& remark : runRemarks(c, c.time.steps))
@@ -67,6 +69,7 @@ int FlightRun::fly(std::uint64_t run_id, const Participants& participants, RunCo
     std::cout << "flight complete: " << files_.directory().path() << std::endl;
     return kExitComplete;
   }
+  failure_ = result.failure;
   std::cerr << "flight failed: " << result.failure << std::endl;
   if (checkpoints_.kept().value_or(0) > 0)  // else it is as good to begin anew
     std::cerr << "it can go on from step " << *checkpoints_.kept()

@@ -87,13 +87,11 @@ void RosParticipant::connect() {
     if (ros::SteadyTime::now() >= deadline) {
       throw ExchangeError(
           name() + " did not answer the handshake within " + inSeconds(run_.limits.connect_s) +
-          (role() == Role::kFluidLeft ? ": is it launched (wings:=independent) and"
-                                      : ": is it") +
+          (role() == Role::kFluidLeft ? ": is it launched (wings:=independent) and" : ": is it") +
           " running, in namespace " + node_.getNamespace() + " of this master" +
-          (counters_.forged > 0
-               ? ", with the same " + std::string(Token::kVariable) + " (" +
-                     std::to_string(counters_.forged) + " messages had another seal)?"
-               : "?"));
+          (counters_.forged > 0 ? ", with the same token (" + std::to_string(counters_.forged) +
+                                      " messages had another seal)?"
+                                : "?"));
     }
   }
 }
@@ -146,6 +144,7 @@ Reply RosParticipant::exchange(const Request& request) {
 
 void RosParticipant::ask(const Request& request) {
   pending_ = toMessage(request);
+  if (request.key.phase == Phase::kStart) pending_.checkpoints = run_.checkpoints;
   reply_.reset();
   run_.queue.callAvailable();  // takes note of nodes that have gone since the last exchange
   requireAlive(request.key);

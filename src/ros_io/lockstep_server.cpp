@@ -105,9 +105,9 @@ void LockstepServer::waitForCoordinator() {
     if (stop_ || !ros::ok()) throw ExchangeError("interrupted while waiting for the coordinator");
     if (ros::SteadyTime::now() > deadline) {
       throw ExchangeError("no coordinator appeared within " + inSeconds(limits_.connect_s) +
-                          ": is it running, in the same namespace of this master, with the same " +
-                          Token::kVariable + "? (" + std::to_string(counters_.forged) +
-                          " messages had another seal)");
+                          ": is it running, in the same namespace of this master, with the same "
+                          "token? (" +
+                          std::to_string(counters_.forged) + " messages had another seal)");
     }
   }
 }

@@ -18,6 +18,7 @@
 #include "monarch_flight/ros_io/pressure_view.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/remarks.h"
+#include "monarch_flight/run/sha256.h"
 #include "monarch_flight/viz/urdf.h"
 
 namespace monarch_flight {
@@ -34,6 +35,7 @@ void requestStop(int) { stop_requested = true; }
 int guarded(const std::string& name, const std::function<int()>& body) {
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
+  std::signal(SIGHUP, requestStop);  // the terminal was closed
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is met like a full disk: with a message
   const auto tell = [&name](const char* what) { std::cerr << name << ": " << what << std::endl; };
   try {
@@ -55,22 +57,31 @@ struct Farewell {
 int nodeMain(const std::string& name, int argc, char** argv, const std::function<int()>& body) {
   return guarded(name, [&] {
     // Namespace of the package unless the launcher gives another.
-    if (std::getenv("ROS_NAMESPACE") == nullptr) setenv("ROS_NAMESPACE", kNamespace, 1);
-    preferLoopback();
+    if (std::getenv("ROS_NAMESPACE") == nullptr)
+      setenv("ROS_NAMESPACE", RunNames().space().c_str(), 1);
+    const bool alone = preferLoopback();
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     requireFreeMaster();
     ros::master::setRetryTimeout(kMasterPatience);
     const Farewell farewell;
     startOnLoopback();
-    return body();
+    if (alone && name == "coordinator")
+      std::cout << "nodes can be reached from this machine only; for several machines set "
+                   "ROS_HOSTNAME or ROS_IP on each"
+                << std::endl;
+    try {
+      return body();
+    } catch (const std::exception& e) {
+      tellRosout(name + ": " + e.what());
+      throw;
+    }
   });
 }
 
 // A process of the flow other than the first leaves when that one says so, not by a signal: the
 // first still writes a checkpoint, to which all contribute.
 int serveFlow(const Processes& processes) {
-  std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGTERM, SIG_IGN);
+  for (int stop : {SIGINT, SIGTERM, SIGHUP}) std::signal(stop, SIG_IGN);
   processes.serveFlow();
   return kExitComplete;
 }
@@ -146,7 +157,7 @@ int inProcessMain(int argc, char** argv) {
           "or fly with nodes (in_process:=false)");
     const std::string out = outputDirectory(parameters, c);
     std::cout << plannedRun(parameters, c, false);
-    FlightRun run(c, out, !parameters.resume.empty(), parameters.ranks, {});
+    FlightRun run(c, out, !parameters.resume.empty(), parameters.ranks);
     InProcessFederation federation(c, checkpointFolder(out));
     FlyUntil control(stop_requested);
     return run.fly(1, federation.participants(), control, stop_requested);
@@ -167,7 +178,9 @@ int insectModelMain(int argc, char** argv) {
     }
     const RunParameters parameters = runParameters(static_cast<int>(others.size()), others.data());
     const Case c = loadCase(parameters);
-    std::string folder = rosHome() + "/monarch_flight/model-" + c.name;
+    // By what it looks like: two cases of one name may differ.
+    std::string folder = rosHome() + "/monarch_flight/model-" + c.name + "-" +
+                         sha256Hex(insectUrdf(c.insect, "")).substr(0, 12);
     if (!parameters.out.empty()) folder = outputDirectory(parameters, c);
     if (uri.empty()) uri = "file://" + folder + "/";
     writeMeshes(c.insect, folder);

@@ -46,6 +46,7 @@ ParticipantRequest toMessage(const Request& request) {
   out.q_threshold = request.q_threshold;
   out.vortex_limit = static_cast<std::uint32_t>(request.vortex_limit);
   out.want_flow = request.want_flow;
+  out.checkpoints = request.checkpoints;
   return out;
 }
 
@@ -61,6 +62,7 @@ Request fromMessage(const ParticipantRequest& request) {
   out.q_threshold = request.q_threshold;
   out.vortex_limit = static_cast<int>(request.vortex_limit);
   out.want_flow = request.want_flow;
+  out.checkpoints = request.checkpoints;
   return out;
 }
 

@@ -4,18 +4,18 @@
 #include <iostream>
 #include <random>
 
-#include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
+#include "monarch_flight/ros_io/token_file.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/kept_participant.h"
 
 namespace monarch_flight {
 namespace {
 
-Case readCase(Role role) {
-  XmlRpc::XmlRpcValue values = parametersOf(kNamespace);
-  const RunParameters parameters = runParameters(values, std::string(kNamespace) + "/");
+Case readCase(Role role, const RunNames& names) {
+  XmlRpc::XmlRpcValue values = parametersOfRun(names);
+  const RunParameters parameters = runParameters(values, names.topic(""));
   Case c = loadCase(parameters);
   if (role == Role::kFluid || role == Role::kFluidLeft) requireProcesses(parameters, c);
   if (role == Role::kFluidLeft && c.mirrored)
@@ -26,13 +26,6 @@ Case readCase(Role role) {
     std::cout << plannedRun(parameters, c, true) << std::flush;
   }
   return c;
-}
-
-// Where the coordinator keeps the checkpoints of the run; it says so before the first request.
-std::string checkpointsOfTheRun() {
-  XmlRpc::XmlRpcValue value = parametersOf(std::string(kNamespace) + "/" + kCheckpointsKey);
-  return value.getType() == XmlRpc::XmlRpcValue::TypeString ? static_cast<std::string>(value)
-                                                            : std::string();
 }
 
 // For tests: MONARCH_ANSWER_DELAY_MS delays every answer by a random time up to so many
@@ -51,7 +44,7 @@ Reply ParticipantOnStart::exchange(const Request& request) {
   delayForTest();
   if (request.key.phase == Phase::kStart) {
     participant_.reset();  // a reset never holds two flows
-    participant_ = make_(checkpointsOfTheRun());
+    participant_ = make_(request.checkpoints);
   }
   if (participant_) return participant_->exchange(request);
   Reply reply;
@@ -61,24 +54,26 @@ Reply ParticipantOnStart::exchange(const Request& request) {
 }
 
 ParticipantNode::ParticipantNode(Role role, const StopFlag& stop)
-    : case_(readCase(role)),
+    : names_(RunNames::ofThisNode()),
+      case_(readCase(role, names_)),
       participant_([this, role](const std::string& checkpoints) {
         return makeParticipant(role, case_, checkpoints);
       }),
-      server_(ros::NodeHandle(kNamespace),
-              {role, case_.name, case_.sha256, Token::fromEnvironment()}, participant_,
+      server_(ros::NodeHandle(names_.space()),
+              {role, case_.name, case_.sha256, tokenOfRun(names_, stop)}, participant_,
               limitsFor(case_.watchdog_s), stop) {}
 
 ParticipantNode::ParticipantNode(const StopFlag& stop,
                                  const std::function<std::unique_ptr<Guidance>(const Case&)>& make)
-    : case_(readCase(Role::kGuidance)),
+    : names_(RunNames::ofThisNode()),
+      case_(readCase(Role::kGuidance, names_)),
       participant_([this, make](const std::string& checkpoints) {
         return std::make_unique<KeptParticipant>(
             roleName(Role::kGuidance),
             std::make_unique<GuidanceParticipant>(makeModel(case_), make(case_)), checkpoints);
       }),
-      server_(ros::NodeHandle(kNamespace),
-              {Role::kGuidance, case_.name, case_.sha256, Token::fromEnvironment()}, participant_,
+      server_(ros::NodeHandle(names_.space()),
+              {Role::kGuidance, case_.name, case_.sha256, tokenOfRun(names_, stop)}, participant_,
               limitsFor(case_.watchdog_s), stop) {}
 
 int ParticipantNode::run() {

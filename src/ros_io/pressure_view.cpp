@@ -12,15 +12,18 @@ constexpr std::uint32_t kQueue = 100;
 
 }  // namespace
 
-PressureView::PressureView() {
-  markers_ = node_.advertise<visualization_msgs::MarkerArray>(topics::kPressureMarkers, 10, true);
-  legend_ = node_.advertise<visualization_msgs::MarkerArray>(topics::kPressureLegend, 1, true);
+PressureView::PressureView() : names_(RunNames::ofThisNode()) {
+  const auto here = [this](const char* topic) { return names_.topic(topic); };
+  markers_ =
+      node_.advertise<visualization_msgs::MarkerArray>(here(topics::kPressureMarkers), 10, true);
+  legend_ =
+      node_.advertise<visualization_msgs::MarkerArray>(here(topics::kPressureLegend), 1, true);
   transforms_ = node_.advertise<tf2_msgs::TFMessage>(topics::kTf, kQueue, true);
-  case_ = node_.subscribe(topics::kCase, 1, &PressureView::onCase, this);
+  case_ = node_.subscribe(here(topics::kCase), 1, &PressureView::onCase, this);
   tf_ = node_.subscribe(topics::kTf, kQueue, &PressureView::onTransforms, this);
   const auto listen = [this](const char* topic, Side side) {
     return node_.subscribe<sensor_msgs::PointCloud2>(
-        topic, 10,
+        names_.topic(topic), 10,
         [this, side](const sensor_msgs::PointCloud2ConstPtr& cloud) { onPressure(side, cloud); });
   };
   pressure_ = {listen(topics::kRightPressure, Side::kRight),
@@ -37,7 +40,7 @@ void PressureView::onCase(const std_msgs::String& text) {
     return;
   }
   shown_ = text.data;
-  legend_.publish(picture_->legend());
+  legend_.publish(named(picture_->legend()));
   for (Side side : kSides) show(side);
 }
 
@@ -48,15 +51,21 @@ void PressureView::onPressure(Side side, const sensor_msgs::PointCloud2ConstPtr&
 
 void PressureView::show(Side side) {
   if (!picture_ || !newest_[side]) return;
-  if (const auto markers = picture_->add(side, *newest_[side])) markers_.publish(*markers);
+  if (const auto markers = picture_->add(side, *newest_[side])) markers_.publish(named(*markers));
+}
+
+visualization_msgs::MarkerArray PressureView::named(visualization_msgs::MarkerArray markers) const {
+  for (visualization_msgs::Marker& marker : markers.markers)
+    marker.header.frame_id = names_.frame(marker.header.frame_id);
+  return markers;
 }
 
 void PressureView::onTransforms(const tf2_msgs::TFMessage& transforms) {
   for (const geometry_msgs::TransformStamped& body : transforms.transforms) {
-    if (body.child_frame_id != frames::kBaseLink) continue;
+    if (body.child_frame_id != names_.frame(frames::kBaseLink)) continue;
     tf2_msgs::TFMessage out;
     out.transforms.push_back(body);
-    out.transforms[0].child_frame_id = frames::kLegend;
+    out.transforms[0].child_frame_id = names_.frame(frames::kLegend);
     out.transforms[0].transform.rotation = geometry_msgs::Quaternion();
     out.transforms[0].transform.rotation.w = 1.0;
     transforms_.publish(out);

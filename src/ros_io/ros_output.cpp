@@ -1,10 +1,13 @@
 #include "monarch_flight/ros_io/ros_output.h"
 
+#include "monarch_flight/ros_io/master.h"
+
 namespace monarch_flight {
 namespace {
 
 // Messages that may wait for a slow listener; the oldest go first.
 constexpr std::uint32_t kQueue = 100;
+const ros::WallDuration kDiagnosticPeriod(1.0);
 
 // diagnostic_updater puts "<node>: " in front of the name of a task.
 std::string taskName(const std::string& name) {
@@ -30,6 +33,7 @@ void RosOutput::open(const std::vector<StampedMessage>& topics) {
         },
         topic.message);
   }
+  if (publishers_.count(topics::kClock) > 0) ownClock();
   updater_ = std::make_unique<diagnostic_updater::Updater>();
   updater_->setHardwareID("monarch_flight");
 }
@@ -41,6 +45,7 @@ void RosOutput::write(const StampedMessage& message) {
     return;
   }
   const ros::Publisher& publisher = publishers_.at(message.topic);
+  if (!publisher) return;  // the clock of another run
   std::visit([&publisher](const auto& content) { publisher.publish(content); }, message.message);
 }
 
@@ -55,7 +60,27 @@ void RosOutput::diagnose(const diagnostic_msgs::DiagnosticArray& diagnostics) {
       s.values = kept.values;
     });
   }
+  keepAlive();
+}
+
+void RosOutput::keepAlive() {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (statuses_.empty() || now < diagnosed_ + kDiagnosticPeriod) return;
+  diagnosed_ = now;
   updater_->force_update();
+}
+
+/// What the last step said.
+void RosOutput::close() {
+  if (!statuses_.empty()) updater_->force_update();
+}
+
+/// The master lists publishers in the order in which they came, so two runs agree.
+void RosOutput::ownClock() {
+  const std::string owner = firstPublisher(node_.resolveName(topics::kClock));
+  if (owner.empty() || owner == ros::this_node::getName()) return;
+  publishers_[topics::kClock].shutdown();
+  ROS_INFO("%s is that of %s: this run does not publish it", topics::kClock, owner.c_str());
 }
 
 }  // namespace monarch_flight

@@ -25,7 +25,7 @@ std::string known(const std::string& where) {
       "case, out, resume, directory, fluid, grid, wings, guidance, guidance_file, flaps, "
       "steps_per_flap, "
       "record, fields_every, checkpoint_every, ranks, paused, ";
-  return common + (where.empty() ? "plan" : "watchdog, checkpoints");
+  return common + (where.empty() ? "plan" : "watchdog, frame_prefix, token_file");
 }
 
 bool oneOf(const std::string& key, std::initializer_list<const char*> names) {
@@ -61,8 +61,8 @@ void take(const std::string& key, const std::string& value, const std::string& w
     out.out = value;
   } else if (key == "resume") {
     out.resume = value;
-  } else if (key == kCheckpointsKey && !where.empty()) {
-    // of the coordinator to the solver nodes: participant_node.cpp
+  } else if (oneOf(key, {"frame_prefix", "token_file"}) && !where.empty()) {
+    // RunNames, TokenFile
   } else if (key == "directory") {
     out.directory = value;
   } else if (oneOf(key, {"fluid", "grid", "wings", "guidance", "guidance_file", "flaps",
@@ -117,20 +117,6 @@ std::string text(XmlRpc::XmlRpcValue& value) {
   }
 }
 
-// A struct under a key: private parameters of the node of that name.
-void checkNested(const std::string& key, XmlRpc::XmlRpcValue& nested, const std::string& where,
-                 Faults& faults) {
-  if (nested.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
-    faults.push_back(where + key + ": must be a number, a text, true or false");
-    return;
-  }
-  for (auto& entry : nested) {
-    if (key == "coordinator" && entry.first == "diagnostic_period") continue;
-    faults.push_back(where + key + "/" + entry.first + ": unknown parameter; known are " +
-                     known(where) + ", in " + where);
-  }
-}
-
 }  // namespace
 
 RunParameters runParameters(const Values& values, const std::string& where) {
@@ -161,13 +147,14 @@ RunParameters runParameters(XmlRpc::XmlRpcValue& parameters, const std::string& 
   if (parameters.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
     for (auto& entry : parameters) {
       const auto type = entry.second.getType();
+      if (type == XmlRpc::XmlRpcValue::TypeStruct) continue;  // private parameters of a node
       const bool scalar =
           type == XmlRpc::XmlRpcValue::TypeBoolean || type == XmlRpc::XmlRpcValue::TypeInt ||
           type == XmlRpc::XmlRpcValue::TypeDouble || type == XmlRpc::XmlRpcValue::TypeString;
       if (scalar) {
         values[entry.first] = text(entry.second);
       } else {
-        checkNested(entry.first, entry.second, where, faults);
+        faults.push_back(where + entry.first + ": must be a number, a text, true or false");
       }
     }
   }

@@ -5,7 +5,6 @@
 #include <openssl/hmac.h>
 
 #include <array>
-#include <cstdlib>
 #include <stdexcept>
 
 namespace monarch_flight {
@@ -14,11 +13,6 @@ namespace {
 constexpr std::size_t kSeal = 32;  // bytes at the end of a message
 
 }  // namespace
-
-Token Token::fromEnvironment() {
-  const char* secret = std::getenv(kVariable);
-  return Token(secret != nullptr ? secret : "");
-}
 
 void Token::seal(const std::string& topic, const std::vector<std::uint8_t>& bytes,
                  std::uint8_t* out) const {

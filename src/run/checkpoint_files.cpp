@@ -78,6 +78,17 @@ std::vector<char> verified(const std::string& path, const Json& entry) {
   return bytes;
 }
 
+// Every participant writes its part itself, a node perhaps on another machine.
+void requirePart(const std::string& folder, const std::string& part,
+                 const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    if (fs::path(file).stem() == part) return;
+  }
+  throw OutputError(folder + " lacks the part of " + part +
+                    ": does its node write to another disk? Let the nodes of all machines share "
+                    "this folder, or fly with checkpoint_every:=0");
+}
+
 // The step that a folder is named after; -1: it is no checkpoint that counts.
 long stepOf(const std::string& name) {
   const std::string digits = name.rfind(kPrefix, 0) == 0 ? name.substr(sizeof kPrefix - 1) : "";
@@ -112,7 +123,8 @@ void CheckpointFiles::write(std::uint32_t step, const std::string& part,
   writeWhole(path(step) + kActive + "/" + part + ".h5", {image.data(), image.size()});
 }
 
-void CheckpointFiles::close(const CheckpointFacts& facts) const {
+void CheckpointFiles::close(const CheckpointFacts& facts,
+                            const std::vector<std::string>& parts) const {
   const std::string name = path(facts.step), active = name + kActive;
   Json manifest{{"format", kFormat},
                 {"version", facts.version},
@@ -124,6 +136,7 @@ void CheckpointFiles::close(const CheckpointFacts& facts) const {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(active)) files.push_back(entry.path().filename());
   std::sort(files.begin(), files.end());
+  for (const std::string& part : parts) requirePart(active, part, files);
   for (const std::string& file : files) {
     const std::vector<char> bytes = readWhole(active + "/" + file);
     manifest["files"][file] = {{"bytes", bytes.size()}, {"sha256", digest(bytes)}};

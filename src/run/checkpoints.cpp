@@ -2,6 +2,7 @@
 
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/csv_tables.h"
+#include "monarch_flight/run/federation.h"
 #include "run/case_difference.h"
 
 namespace monarch_flight {
@@ -26,6 +27,9 @@ Checkpoints::Checkpoints(const Case& c, const std::string& out, bool resume, int
       out_(out),
       case_yaml_(c.resolved_yaml),
       every_(static_cast<std::uint32_t>(c.output.checkpoint_every)) {
+  parts_.push_back(kCoordinator);
+  for (Role role : rolesOf(c)) parts_.push_back(roleName(role));
+  if (led_by_node_) parts_.push_back(kWingbeatPart);
   if (resume) choose(c, out);
 }
 
@@ -127,7 +131,7 @@ void Checkpoints::close(std::uint32_t step, const ShowState& coordinator) {
   coordinator(writer);
   files_.write(step, kCoordinator, record);
   facts_.step = step;
-  files_.close(facts_);
+  files_.close(facts_, parts_);
   kept_ = step;
 }
 

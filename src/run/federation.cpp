@@ -120,8 +120,8 @@ std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
     solver = std::make_unique<GuidanceParticipant>(model, makeGuidance(c, std::move(inbox)));
   // Beside a guidance node, which keeps a part of its own.
   const bool beside = role == Role::kGuidance && c.guidance.kind == GuidanceKind::kNode;
-  return std::make_unique<KeptParticipant>(beside ? "wingbeat" : roleName(role), std::move(solver),
-                                           checkpoints);
+  return std::make_unique<KeptParticipant>(beside ? kWingbeatPart : roleName(role),
+                                           std::move(solver), checkpoints);
 }
 
 RunResult runCase(const Case& c, std::uint64_t run_id, const Participants& participants,

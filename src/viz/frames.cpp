@@ -26,7 +26,29 @@ geometry_msgs::TransformStamped transform(const char* parent, const char* child,
   return out;
 }
 
+/// The three hinges of a wing, one after the other (wingAttitude is their product).
+void addWing(Side side, const Insect& insect, const JointAngles& angles, const ros::Time& stamp,
+             std::vector<geometry_msgs::TransformStamped>& out) {
+  const bool left = side == Side::kLeft;
+  const double sign = left ? -1.0 : 1.0;
+  const WingAngles& wing = angles.wings[side];
+  const char* flapping = left ? frames::kLeftFlapping : frames::kRightFlapping;
+  const char* deviation = left ? frames::kLeftDeviation : frames::kRightDeviation;
+  const Eigen::Vector3d here = Eigen::Vector3d::Zero();
+  out.push_back(transform(frames::kStrokePlane, flapping, wingRoot(insect, side),
+                          rotationX(sign * wing.phi.q), stamp));
+  out.push_back(transform(flapping, deviation, here, rotationZ(-sign * wing.psi.q), stamp));
+  out.push_back(transform(deviation, left ? frames::kLeftWing : frames::kRightWing, here,
+                          rotationY(wing.theta.q), stamp));
+}
+
 }  // namespace
+
+Eigen::Vector3d wingRoot(const Insect& insect, Side side) {
+  const Appendage& plate = insect.wings[side].plate;
+  const Eigen::Vector3d mu = side == Side::kLeft ? mirrored(plate).mu : plate.mu;
+  return rotationY(insect.beta).transpose() * mu;
+}
 
 Eigen::Matrix3d nedToEnu() {
   Eigen::Matrix3d R;
@@ -70,18 +92,13 @@ std::vector<geometry_msgs::TransformStamped> movingTransforms(const Insect& inse
                                                               const BodyState& body,
                                                               const JointAngles& angles,
                                                               const ros::Time& stamp) {
-  const Eigen::Matrix3d R_SB = rotationY(insect.beta).transpose();  // body to stroke plane
   std::vector<geometry_msgs::TransformStamped> out;
-  out.reserve(4);
+  out.reserve(8);
   out.push_back(transform(frames::kWorld, frames::kBaseLink, nedToEnu() * body.x,
                           baseLinkAttitude(body), stamp));
-  out.push_back(
-      transform(frames::kStrokePlane, frames::kRightWing, R_SB * insect.wings.right.plate.mu,
-                R_SB * wingAttitude(Side::kRight, insect.beta, angles.wings.right), stamp));
+  addWing(Side::kRight, insect, angles, stamp, out);
   if (insect.bare_wing) return out;
-  out.push_back(transform(frames::kStrokePlane, frames::kLeftWing,
-                          R_SB * mirrored(insect.wings.left.plate).mu,
-                          R_SB * wingAttitude(Side::kLeft, insect.beta, angles.wings.left), stamp));
+  addWing(Side::kLeft, insect, angles, stamp, out);
   out.push_back(transform(frames::kBodyFrd, frames::kAbdomen, insect.abdomen.mu,
                           abdomenAttitude(angles), stamp));
   return out;

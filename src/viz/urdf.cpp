@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/viz/frames.h"
 #include "monarch_flight/viz/mesh.h"
 
 namespace monarch_flight {
@@ -47,11 +48,10 @@ std::string visual(const std::string& mesh, const std::string& material) {
          "\"/></geometry>\n      <material name=\"" + material + "\"/>\n    </visual>\n";
 }
 
-std::string fixed(const std::string& parent, const std::string& child, const Eigen::Vector3d& at,
-                  const Eigen::Vector3d& rpy) {
+std::string fixed(const std::string& parent, const std::string& child, const Eigen::Vector3d& rpy) {
   return "  <joint name=\"" + child + "_mount\" type=\"fixed\">\n    <parent link=\"" + parent +
-         "\"/>\n    <child link=\"" + child + "\"/>\n    <origin xyz=\"" + xyz(at) + "\" rpy=\"" +
-         xyz(rpy) + "\"/>\n  </joint>\n";
+         "\"/>\n    <child link=\"" + child + "\"/>\n    <origin xyz=\"0 0 0\" rpy=\"" + xyz(rpy) +
+         "\"/>\n  </joint>\n";
 }
 
 std::string hinge(const std::string& name, const std::string& parent, const std::string& child,
@@ -61,22 +61,22 @@ std::string hinge(const std::string& name, const std::string& parent, const std:
          "\"/>\n    <axis xyz=\"" + xyz(axis) + "\"/>\n  </joint>\n";
 }
 
-// Shoulder and the three joints of one wing: Q = exp(beta e2) exp(+-phi e1) exp(-+psi e3) exp(theta
-// e2).
-std::string wing(const Insect& insect, bool left, const std::string& mesh_uri) {
+// The three joints of one wing on the stroke plane: exp(+-phi e1) exp(-+psi e3) exp(theta e2).
+std::string wing(const Insect& insect, Side side, const std::string& mesh_uri) {
+  const bool left = side == Side::kLeft;
   const Appendage part = left ? mirrored(insect.wings.left.plate) : insect.wings.right.plate;
-  const std::string side = left ? "left" : "right";
+  const std::string name = left ? "left" : "right";
   const double sign = left ? -1.0 : 1.0;
   const Eigen::Vector3d here = Eigen::Vector3d::Zero();
-  const std::string shoulder = side + "_shoulder_link", flap = side + "_flap_link",
-                    deviation = side + "_deviation_link", blade = side + "_wing_link";
-  return link(shoulder) + link(flap) + link(deviation) +
+  const std::string flapping = name + "_wing_flapping", deviation = name + "_wing_deviation",
+                    blade = name + "_wing";
+  return link(flapping) + link(deviation) +
          link(blade,
-              inertial(part.m, part.nu, part.J) + visual(mesh_uri + side + "_wing.stl", "wing")) +
-         fixed("thorax_link", shoulder, part.mu, {0, insect.beta, 0}) +
-         hinge(side + "_flap", shoulder, flap, here, {sign, 0, 0}) +
-         hinge(side + "_deviation", flap, deviation, here, {0, 0, -sign}) +
-         hinge(side + "_pitch", deviation, blade, here, {0, 1, 0});
+              inertial(part.m, part.nu, part.J) + visual(mesh_uri + name + "_wing.stl", "wing")) +
+         hinge(name + "_flap", frames::kStrokePlane, flapping, wingRoot(insect, side),
+               {sign, 0, 0}) +
+         hinge(name + "_deviation", flapping, deviation, here, {0, 0, -sign}) +
+         hinge(name + "_pitch", deviation, blade, here, {0, 1, 0});
 }
 
 void writeFile(const std::filesystem::path& path, const std::string& bytes) {
@@ -86,31 +86,54 @@ void writeFile(const std::filesystem::path& path, const std::string& bytes) {
   if (!file) throw InputError("cannot write " + path.string() + ": is there space and permission?");
 }
 
-// Where the abdomen's ellipsoid lies: behind its joint, on the side of its mass centre.
-Eigen::Vector3d abdomenCentre(const Insect& insect) {
-  const double side = insect.abdomen.nu.x() > 0.0 ? 1.0 : -1.0;
-  return {0.5 * side * insect.abdomen_length, 0, 0};
+std_msgs::ColorRGBA colour(float r, float g, float b) {
+  std_msgs::ColorRGBA out;
+  out.r = r;
+  out.g = g;
+  out.b = b;
+  out.a = 1.0f;
+  return out;
+}
+
+std::string material(const char* name, const std_msgs::ColorRGBA& c) {
+  return format("  <material name=\"%s\"><color rgba=\"%.2f %.2f %.2f 1\"/></material>\n", name,
+                static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b));
 }
 
 }  // namespace
 
+std_msgs::ColorRGBA wingColour() { return colour(0.85f, 0.45f, 0.10f); }
+std_msgs::ColorRGBA bodyColour() { return colour(0.20f, 0.17f, 0.15f); }
+
+Mesh thoraxMesh(const Insect& insect) {
+  return ellipsoidMesh(Eigen::Vector3d::Zero(), insect.body_length, insect.body_width);
+}
+
+// Behind its joint, on the side of its mass centre.
+Mesh abdomenMesh(const Insect& insect) {
+  const double side = insect.abdomen.nu.x() > 0.0 ? 1.0 : -1.0;
+  const Eigen::Vector3d centre(0.5 * side * insect.abdomen_length, 0, 0);
+  return ellipsoidMesh(centre, insect.abdomen_length, insect.abdomen_width);
+}
+
 std::string insectUrdf(const Insect& insect, const std::string& mesh_uri) {
   const Eigen::Vector3d here = Eigen::Vector3d::Zero();
-  std::string out = "<?xml version=\"1.0\"?>\n<robot name=\"" + insect.name +
-                    "\">\n  <material name=\"wing\"><color rgba=\"0.85 0.45 0.10 1\"/></material>\n"
-                    "  <material name=\"body\"><color rgba=\"0.20 0.17 0.15 1\"/></material>\n" +
-                    link("base_link");
+  std::string out = "<?xml version=\"1.0\"?>\n<robot name=\"" + insect.name + "\">\n" +
+                    material("wing", wingColour()) + material("body", bodyColour()) +
+                    link(frames::kBaseLink);
   const std::string body = insect.bare_wing ? ""
                                             : inertial(insect.m_B, here, insect.J_B) +
                                                   visual(mesh_uri + "thorax.stl", "body");
-  out += link("thorax_link", body) + fixed("base_link", "thorax_link", here, {M_PI, 0, 0});
-  out += wing(insect, false, mesh_uri);
+  out += link(frames::kBodyFrd, body) + link(frames::kStrokePlane) +
+         fixed(frames::kBaseLink, frames::kBodyFrd, {M_PI, 0, 0}) +
+         fixed(frames::kBodyFrd, frames::kStrokePlane, {0, insect.beta, 0});
+  out += wing(insect, Side::kRight, mesh_uri);
   if (!insect.bare_wing) {
     const Appendage& abdomen = insect.abdomen;
-    out += wing(insect, true, mesh_uri);
-    out += link("abdomen_link", inertial(abdomen.m, abdomen.nu, abdomen.J) +
-                                    visual(mesh_uri + "abdomen.stl", "body"));
-    out += hinge(joints::kAbdomen, "thorax_link", "abdomen_link", abdomen.mu, {0, 1, 0});
+    out += wing(insect, Side::kLeft, mesh_uri);
+    out += link(frames::kAbdomen, inertial(abdomen.m, abdomen.nu, abdomen.J) +
+                                      visual(mesh_uri + "abdomen.stl", "body"));
+    out += hinge(joints::kAbdomen, frames::kBodyFrd, frames::kAbdomen, abdomen.mu, {0, 1, 0});
   }
   return out + "</robot>\n";
 }
@@ -121,13 +144,9 @@ void writeMeshes(const Insect& insect, const std::string& directory) {
   std::filesystem::create_directories(folder, failed);
   writeFile(folder / "right_wing.stl", stlBytes(wingMesh(insect.wings.right.planform, false)));
   if (insect.bare_wing) return;
-  const Eigen::Vector3d here = Eigen::Vector3d::Zero();
   writeFile(folder / "left_wing.stl", stlBytes(wingMesh(insect.wings.left.planform, true)));
-  writeFile(folder / "thorax.stl",
-            stlBytes(ellipsoidMesh(here, insect.body_length, insect.body_width)));
-  writeFile(
-      folder / "abdomen.stl",
-      stlBytes(ellipsoidMesh(abdomenCentre(insect), insect.abdomen_length, insect.abdomen_width)));
+  writeFile(folder / "thorax.stl", stlBytes(thoraxMesh(insect)));
+  writeFile(folder / "abdomen.stl", stlBytes(abdomenMesh(insect)));
 }
 
 }  // namespace monarch_flight

@@ -147,5 +147,36 @@ TEST_F(Checkpointed, ADiskThatRefusesEndsTheRunAndTheLastCheckpointStays) {
   expectSameFlight("whole", "cut");
 }
 
+/// Answers to CHECKPOINT as if it had written its part, as a node on another disk does.
+class Elsewhere : public Participant {
+ public:
+  explicit Elsewhere(Participant& solver) : solver_(solver) {}
+  Reply exchange(const Request& request) override {
+    if (request.key.phase != Phase::kCheckpoint) return solver_.exchange(request);
+    Reply reply;
+    reply.key = request.key;
+    reply.interface = request.interface;
+    return reply;
+  }
+
+ private:
+  Participant& solver_;
+};
+
+TEST_F(Checkpointed, ACheckpointWithoutAPartIsNone) {
+  const Case c = climb();
+  Checkpoints checkpoints(c, out("cut"), false);
+  RunOutputs files(c, out("cut"), &checkpoints);
+  InProcessFederation solvers(c, checkpointFolder(out("cut")));
+  Participants all = solvers.participants();
+  Elsewhere wing(*all[static_cast<std::size_t>(Role::kWing)]);
+  all[static_cast<std::size_t>(Role::kWing)] = &wing;
+  FlyUntil control(stop_);
+  const RunResult result = runCase(c, 1, all, {&files}, control, &checkpoints);
+  EXPECT_FALSE(result.complete);
+  expectHas(result.failure, "step_0000000010.active lacks the part of wing");
+  EXPECT_FALSE(fs::exists(part("cut", "10", "")));
+}
+
 }  // namespace
 }  // namespace monarch_flight

@@ -23,6 +23,8 @@ namespace {
 
 constexpr int kSteps = 120;
 
+std::string name(const char* topic) { return RunNames().topic(topic); }
+
 /// One flight for all tests.
 class Bag : public testing::Test {
  protected:
@@ -65,18 +67,19 @@ TEST_F(Bag, HoldsEveryTopicAsOftenAsExpected) {
   for (const char* every_step :
        {topics::kClock, topics::kTf, topics::kJointStates, topics::kState, topics::kOdometry,
         topics::kWind, topics::kRightWrench, topics::kLeftWrench, topics::kIterations}) {
-    expected[every_step] = kSteps + 1;
+    expected[name(every_step)] = kSteps + 1;
   }
   expected[topics::kTfStatic] = 1;
-  expected[topics::kCase] = 1;
-  expected[topics::kPath] = 16;         // a pose in 240 / 32 = 7.5 -> 8 steps: 0, 8, .. 120
+  expected[name(topics::kCase)] = 1;
+  expected[name(topics::kModel)] = 1;
+  expected[name(topics::kPath)] = 16;   // a pose in 240 / 32 = 7.5 -> 8 steps: 0, 8, .. 120
   expected[topics::kDiagnostics] = 11;  // every 12 steps: 0, 12, .. 120
-  expected[topics::kRightPressure] = kSteps / insect->output.surface_every;
+  expected[name(topics::kRightPressure)] = kSteps / insect->output.surface_every;
   EXPECT_EQ(expected, count);
 }
 
 TEST_F(Bag, StampsRunFromOneSecondWithTheStep) {
-  const auto clocks = all<rosgraph_msgs::Clock>(topics::kClock);
+  const auto clocks = all<rosgraph_msgs::Clock>(name(topics::kClock));
   ASSERT_EQ(kSteps + 1u, clocks.size());
   for (int i = 0; i <= kSteps; ++i) {
     EXPECT_EQ(stampOf(static_cast<std::uint32_t>(i), insect->time), clocks[i]->clock);
@@ -101,7 +104,7 @@ TEST_F(Bag, TheTfTreeAloneGivesTheWings) {
       }
     }
   }
-  const auto states = all<FlightState>(topics::kState);
+  const auto states = all<FlightState>(name(topics::kState));
   ASSERT_EQ(kSteps + 1u, states.size());
   for (const auto& state : states) {
     const JointAngles angles{
@@ -133,8 +136,8 @@ TEST_F(Bag, TheTfTreeAloneGivesTheWings) {
 }
 
 TEST_F(Bag, OdometryIsTheStateInEastNorthUp) {
-  const auto states = all<FlightState>(topics::kState);
-  const auto odometry = all<nav_msgs::Odometry>(topics::kOdometry);
+  const auto states = all<FlightState>(name(topics::kState));
+  const auto odometry = all<nav_msgs::Odometry>(name(topics::kOdometry));
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState s = fromMessage(states[i]->body);
     const auto& o = *odometry[i];
@@ -152,9 +155,9 @@ TEST_F(Bag, OdometryIsTheStateInEastNorthUp) {
 }
 
 TEST_F(Bag, TheTwoWrenchesTogetherAreTheForce) {
-  const auto states = all<FlightState>(topics::kState);
-  const auto right = all<geometry_msgs::WrenchStamped>(topics::kRightWrench);
-  const auto left = all<geometry_msgs::WrenchStamped>(topics::kLeftWrench);
+  const auto states = all<FlightState>(name(topics::kState));
+  const auto right = all<geometry_msgs::WrenchStamped>(name(topics::kRightWrench));
+  const auto left = all<geometry_msgs::WrenchStamped>(name(topics::kLeftWrench));
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState s = fromMessage(states[i]->body);
     const FlightState& m = *states[i];
@@ -176,8 +179,8 @@ TEST_F(Bag, TheTwoWrenchesTogetherAreTheForce) {
 }
 
 TEST_F(Bag, TheIterationTableHasEverySubIteration) {
-  const auto states = all<FlightState>(topics::kState);
-  const auto tables = all<StepIterations>(topics::kIterations);
+  const auto states = all<FlightState>(name(topics::kState));
+  const auto tables = all<StepIterations>(name(topics::kIterations));
   std::size_t rows = 0;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     EXPECT_EQ(i, tables[i]->step);
@@ -208,7 +211,7 @@ TEST_F(Bag, HoldsThePressureOfTheSolver) {
   Surfaces flown;
   const StopFlag stop{false};
   InProcessFederation(c).run(1, {&flown}, stop);
-  const auto clouds = all<sensor_msgs::PointCloud2>(topics::kRightPressure);
+  const auto clouds = all<sensor_msgs::PointCloud2>(name(topics::kRightPressure));
   ASSERT_EQ(flown.steps.size(), clouds.size());
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     EXPECT_EQ("right_wing", clouds[i]->header.frame_id);
@@ -223,7 +226,7 @@ TEST_F(Bag, HoldsThePressureOfTheSolver) {
 }
 
 TEST_F(Bag, TheCaseIsTheFileAndStaticTopicsAreLatched) {
-  const auto recorded = all<std_msgs::String>(topics::kCase);
+  const auto recorded = all<std_msgs::String>(name(topics::kCase));
   ASSERT_EQ(1u, recorded.size());
   EXPECT_EQ(fileText(*folder / "run/case.yaml"), recorded[0]->data);
   rosbag::View view(*bag);
@@ -232,7 +235,7 @@ TEST_F(Bag, TheCaseIsTheFileAndStaticTopicsAreLatched) {
     const auto found = connection->header->find("latching");
     if (found != connection->header->end() && found->second == "1") ++latched;
   }
-  EXPECT_EQ(4, latched);  // tf_static, case, path, right_wing/pressure
+  EXPECT_EQ(5, latched);  // tf_static, case, model, path, right_wing/pressure
 }
 
 TEST(PublishedWind, IsTheCommittedOneInEastNorthUp) {
@@ -243,7 +246,7 @@ TEST(PublishedWind, IsTheCommittedOneInEastNorthUp) {
   step.guided.wind.v = Eigen::Vector3d(0.3, -0.2, 0.1);
   int found = 0;
   for (const StampedMessage& m : messages.of(step)) {
-    if (m.topic != topics::kWind) continue;
+    if (m.topic != name(topics::kWind)) continue;
     const auto& wind = std::get<geometry_msgs::Vector3Stamped>(m.message);
     EXPECT_EQ("world", wind.header.frame_id);
     EXPECT_EQ(stampOf(3, c.time), wind.header.stamp);

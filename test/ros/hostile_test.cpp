@@ -12,8 +12,6 @@
 namespace monarch_flight {
 namespace {
 
-constexpr char kToken[] = "token of the tests";
-
 unsigned messagesPerTopic() {
   const char* given = std::getenv("MONARCH_HOSTILE_MESSAGES");
   return given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 300;
@@ -23,7 +21,7 @@ unsigned messagesPerTopic() {
 struct Attackers {
   Attackers(ros::NodeHandle& node, const std::vector<std::string>& roles) {
     unsigned seed = 1;
-    const Token token(kToken);
+    const Token token(kTestToken);
     for (const std::string& role : roles) {
       const std::string place = "/monarch_flight/" + role + "/";
       greetings.push_back(make<Hello>(node, place + "coordinator_hello", token, seed));
@@ -215,10 +213,10 @@ TEST_F(Nodes, AStrangerCannotPlayTheCoordinator) {
 }
 
 TEST_F(Nodes, WithoutATokenAPersonIsWarned) {
-  unsetenv("MONARCH_FLIGHT_TOKEN");
+  ros::param::del("/monarch_flight/token_file");
   startAll();
   EXPECT_EQ(0, coordinator->wait(40.0)) << coordinator->output();
-  EXPECT_TRUE(contains(coordinator->output(), "MONARCH_FLIGHT_TOKEN is not set"));
+  EXPECT_TRUE(contains(coordinator->output(), "/monarch_flight/token_file is not set"));
 }
 
 /// What a process has open, as "socket:[inode]".

@@ -1,7 +1,9 @@
 #pragma once
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <sys/stat.h>
 
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,12 +13,17 @@
 
 namespace monarch_flight {
 
+constexpr char kTestToken[] = "token of the tests";
+
 /// Parameters on the master and the nodes.
 class Nodes : public testing::Test {
  protected:
   Nodes() {
-    setenv("MONARCH_FLIGHT_TOKEN", "token of the tests", 1);
+    const std::string token = folder / "token";
+    std::ofstream(token) << kTestToken << "\n";
+    chmod(token.c_str(), 0600);
     ros::param::del("/monarch_flight");
+    ros::param::set("/monarch_flight/token_file", token);
     ros::param::set("/monarch_flight/case", "climb_printed");
     ros::param::set("/monarch_flight/fluid", "quasi_steady");
     ros::param::set("/monarch_flight/flaps", 0.1);

@@ -104,14 +104,12 @@ TEST_F(Nodes, EveryWrongParameterIsNamedAtOnce) {
   ros::param::set("/monarch_flight/ranks", -4);
   ros::param::set("/monarch_flight/watchdog", -1);
   ros::param::set("/monarch_flight/flap", 3);
-  ros::param::set("/monarch_flight/wing/mass", 3.0);
   coordinator = start("coordinator");
   EXPECT_EQ(2, coordinator->wait(10.0));
   const std::string text = coordinator->output();
   EXPECT_TRUE(contains(text, "/monarch_flight/ranks = -4: must be a whole number")) << text;
   EXPECT_TRUE(contains(text, "/monarch_flight/watchdog = -1: must be")) << text;
   EXPECT_TRUE(contains(text, "/monarch_flight/flap: unknown parameter")) << text;
-  EXPECT_TRUE(contains(text, "/monarch_flight/wing/mass: unknown parameter")) << text;
   EXPECT_FALSE(exists(folder / "run"));
 }
 

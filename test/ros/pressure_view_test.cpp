@@ -85,9 +85,9 @@ TEST(PublishedPressure, OfIndependentWingsIsTheirOwnAndOfMirroredOnesTheRightOne
       if (cloud != nullptr) clouds[m.topic] = *cloud;
     }
     ASSERT_EQ(wings == "mirrored" ? 1u : 2u, clouds.size());
-    EXPECT_EQ(5.0f, number(clouds.at(topics::kRightPressure), 0, "p_upper"));
+    EXPECT_EQ(5.0f, number(clouds.at(RunNames().topic(topics::kRightPressure)), 0, "p_upper"));
     if (wings == "independent") {
-      EXPECT_EQ(7.0f, number(clouds.at(topics::kLeftPressure), 0, "p_upper"));
+      EXPECT_EQ(7.0f, number(clouds.at(RunNames().topic(topics::kLeftPressure)), 0, "p_upper"));
     }
   }
 }
@@ -131,13 +131,14 @@ class Viewer : public testing::Test {
  protected:
   template <class Message>
   void publish(const char* topic, const Message& message) {
-    publishers_.push_back(node_.advertise<Message>(topic, 1, true));
+    publishers_.push_back(node_.advertise<Message>(RunNames().topic(topic), 1, true));
     publishers_.back().publish(message);
   }
   template <class Message>
   void listen(const char* topic, std::vector<Message>& into) {
     subscribers_.push_back(node_.subscribe<Message>(
-        topic, 10, [&into](const boost::shared_ptr<Message const>& m) { into.push_back(*m); }));
+        RunNames().topic(topic), 10,
+        [&into](const boost::shared_ptr<Message const>& m) { into.push_back(*m); }));
   }
   template <class Condition>
   bool comes(Condition condition) {

@@ -91,6 +91,12 @@ TEST(Mesh, TheEllipsoidIsClosedAndFacesOutwards) {
   EXPECT_NEAR(M_PI / 6.0 * 4.0 * 4.0, volume, 0.04 * volume);
 }
 
+Eigen::Isometry3d isometry(const geometry_msgs::TransformStamped& stamped) {
+  const auto& t = stamped.transform;
+  const Eigen::Quaterniond q(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z);
+  return Eigen::Translation3d(t.translation.x, t.translation.y, t.translation.z) * q;
+}
+
 TEST(Urdf, MovesLikeTheFrames) {
   const Case c = climb();
   ros::param::set("/robot_description", insectUrdf(c.insect, "package://monarch_flight/urdf/"));
@@ -131,20 +137,22 @@ TEST(Urdf, MovesLikeTheFrames) {
       if (joints != nullptr) joint_states.publish(*joints);
     }
     const ros::Time stamp = stampOf(i, c.time);
-    for (int k = 0; k < 500 && !buffer.canTransform("base_link", "abdomen_link", stamp); ++k) {
+    for (int k = 0; k < 500 && !buffer.canTransform("base_link", "abdomen", stamp); ++k) {
       ros::WallDuration(0.01).sleep();
       ros::spinOnce();
     }
-    for (const auto& t : staticTransforms(c.insect, stamp)) buffer.setTransform(t, "test", true);
+    tf2::BufferCore ours;
+    for (const auto& t : staticTransforms(c.insect, stamp)) ours.setTransform(t, "test", true);
     for (const auto& t : movingTransforms(c.insect, {}, step.angles, stamp)) {
-      buffer.setTransform(t, "test", false);
+      ours.setTransform(t, "test", false);
     }
-    for (const char* frame : {"right_wing", "left_wing", "abdomen"}) {
-      const std::string link = std::string(frame) + "_link";
-      ASSERT_TRUE(buffer.canTransform(frame, link, stamp)) << frame;
-      const auto t = buffer.lookupTransform(frame, link, stamp).transform;
-      EXPECT_LT(Eigen::Vector3d(t.translation.x, t.translation.y, t.translation.z).norm(), 1e-12);
-      EXPECT_NEAR(1.0, std::abs(t.rotation.w), 1e-12) << frame;
+    for (const char* frame :
+         {"body_frd", "stroke_plane", "right_wing_flapping", "right_wing_deviation", "right_wing",
+          "left_wing_flapping", "left_wing_deviation", "left_wing", "abdomen"}) {
+      ASSERT_TRUE(buffer.canTransform("base_link", frame, stamp)) << frame;
+      const Eigen::Isometry3d theirs = isometry(buffer.lookupTransform("base_link", frame, stamp)),
+                              mine = isometry(ours.lookupTransform("base_link", frame, stamp));
+      EXPECT_LT((theirs.matrix() - mine.matrix()).norm(), 1e-12) << frame;
     }
   }
 }

@@ -73,6 +73,8 @@ struct Request {
   bool want_fields = false;    ///< COMMIT to the fluid: answer with surface pressure and vortices
   double q_threshold = 0.0;    ///< of these vortices [1/s^2]
   int vortex_limit = 0;        ///< points at most
+  /// START between processes: folder of the run's checkpoints.
+  std::string checkpoints;
 };
 
 struct Reply {

@@ -11,50 +11,27 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "monarch_flight/ros_io/run_names.h"
 #include "monarch_flight/run/case.h"
 
 namespace monarch_flight {
-
-/// Namespace of nodes, parameters and of the topics that belong to this package.
-constexpr char kNamespace[] = "/monarch_flight";
-
-/// Names of all topics, absolute.
-namespace topics {
-constexpr char kClock[] = "/clock";
-constexpr char kTf[] = "/tf";
-constexpr char kTfStatic[] = "/tf_static";
-constexpr char kJointStates[] = "/joint_states";
-constexpr char kDiagnostics[] = "/diagnostics";
-constexpr char kCase[] = "/monarch_flight/case";
-constexpr char kState[] = "/monarch_flight/state";
-constexpr char kOdometry[] = "/monarch_flight/odom";
-constexpr char kPath[] = "/monarch_flight/path";
-constexpr char kWind[] = "/monarch_flight/wind";
-constexpr char kRightWrench[] = "/monarch_flight/right_wing/wrench";
-constexpr char kLeftWrench[] = "/monarch_flight/left_wing/wrench";
-constexpr char kRightPressure[] = "/monarch_flight/right_wing/pressure";
-constexpr char kLeftPressure[] = "/monarch_flight/left_wing/pressure";
-constexpr char kVortices[] = "/monarch_flight/vortices";
-constexpr char kIterations[] = "/monarch_flight/iterations";
-// For rviz alone (PressureView): neither from the coordinator nor in a bag.
-constexpr char kPressureMarkers[] = "/monarch_flight/pressure_markers";
-constexpr char kPressureLegend[] = "/monarch_flight/pressure_legend";
-}  // namespace topics
 
 using FlightMessage =
     std::variant<rosgraph_msgs::Clock, tf2_msgs::TFMessage, sensor_msgs::JointState,
                  diagnostic_msgs::DiagnosticArray, std_msgs::String, FlightState,
                  nav_msgs::Odometry, nav_msgs::Path, geometry_msgs::Vector3Stamped,
-                 geometry_msgs::WrenchStamped, sensor_msgs::PointCloud2, StepIterations>;
+                 geometry_msgs::WrenchStamped, sensor_msgs::PointCloud2,
+                 visualization_msgs::MarkerArray, StepIterations>;
 
 /// A message with its place and time: what is published and what is recorded are the same.
 struct StampedMessage {
-  std::string topic;
+  std::string topic;  ///< absolute
   ros::Time stamp;
   FlightMessage message;
   bool latched = false;
@@ -64,13 +41,13 @@ struct StampedMessage {
 /// step, so that nothing accumulates.
 ros::Time stampOf(std::uint32_t step, const TimeGrid& time);
 
-/// Turns committed steps into messages; keeps the path flown so far.
+/// Turns committed steps into messages, with the names of the run; keeps the path flown so far.
 class FlightMessages {
  public:
-  explicit FlightMessages(const Case& c);
+  explicit FlightMessages(const Case& c, const RunNames& names = RunNames());
   /// Every topic that may come, with an empty message of its type.
   std::vector<StampedMessage> topics() const;
-  /// What comes once, before the first step: static transforms and the case.
+  /// What comes once, before the first step: static transforms, the case and the insect's shape.
   std::vector<StampedMessage> opening() const;
   /// What follows from a step, /clock first.
   std::vector<StampedMessage> of(const CommittedStep& step);
@@ -83,8 +60,10 @@ class FlightMessages {
                    std::vector<StampedMessage>& out) const;
   diagnostic_msgs::DiagnosticArray diagnostics(const CommittedStep& step,
                                                const ros::Time& stamp) const;
+  void name(std::vector<StampedMessage>& messages) const;
 
   Case case_;
+  RunNames names_;
   nav_msgs::Path path_;
   std::uint32_t path_stride_;         // steps between poses of the path
   std::uint32_t diagnostics_stride_;  // steps between diagnostics
@@ -111,7 +90,8 @@ class MessageSink : public StepSink {
  public:
   /// Opens the outputs and writes what comes before the first step. Outputs must outlive the sink.
   /// `resumed`: what `onCheckpoint` has shown, for a run that goes on.
-  MessageSink(const Case& c, std::vector<MessageOutput*> outputs, StateVisitor* resumed = nullptr);
+  MessageSink(const Case& c, const RunNames& names, std::vector<MessageOutput*> outputs,
+              StateVisitor* resumed = nullptr);
   void onStep(const CommittedStep& step) override;
   void onReset() override;
   void onCheckpoint(StateVisitor& state) override;
@@ -121,6 +101,7 @@ class MessageSink : public StepSink {
   void write(const std::vector<StampedMessage>& messages);
 
   Case case_;
+  RunNames names_;
   FlightMessages messages_;
   std::vector<MessageOutput*> outputs_;
 };

@@ -17,15 +17,17 @@ namespace monarch_flight {
 class FlightRun {
  public:
   /// Makes the folder `out`, or goes on from the newest checkpoint in it (`resume`) and says from
-  /// which. `ranks`: processes of the flow. `listeners` also get the messages. Throws InputError,
-  /// OutputError.
+  /// which. `ranks`: processes of the flow. `names`: of the messages, which `listeners` get, too.
+  /// Throws InputError, OutputError.
   FlightRun(const Case& c, const std::string& out, bool resume, int ranks,
-            std::vector<MessageOutput*> listeners);
+            const RunNames& names = RunNames(), std::vector<MessageOutput*> listeners = {});
   /// Delivers to `sink`, too, after everything is written; it must outlive this.
   void addSink(StepSink& sink) { last_.push_back(&sink); }
   /// Flies as `control` says; prints the end; returns an exit code (`stop`: stopped by hand).
   int fly(std::uint64_t run_id, const Participants& participants, RunControl& control,
           const StopFlag& stop);
+  /// Why it failed; empty: it has not.
+  const std::string& failure() const { return failure_; }
 
  private:
   void tell() const;
@@ -39,6 +41,7 @@ class FlightRun {
   std::unique_ptr<MessageSink> messages_;
   ProgressSink progress_;
   std::vector<StepSink*> last_;
+  std::string failure_;
 };
 
 }  // namespace monarch_flight

@@ -15,6 +15,7 @@ class RosParticipant;
 struct LockstepRun {
   ros::CallbackQueue queue;  ///< of all connections: whoever waits also sees the others get lost
   std::uint64_t id = 0;
+  std::string checkpoints;  ///< their folder, which START tells
   LockstepLimits limits;
   const StopFlag* stop = nullptr;                   ///< ends every wait when it becomes true
   std::vector<const RosParticipant*> participants;  ///< as long as they live

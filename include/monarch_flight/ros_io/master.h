@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "monarch_flight/ros_io/run_names.h"
+
 namespace monarch_flight {
 
 /// Preconditions of a node, asked from the master before the node registers (registering would make
@@ -12,5 +14,14 @@ void requireFreeMaster();
 
 /// The parameters of a namespace as the master holds them; an invalid value when there are none.
 XmlRpc::XmlRpcValue parametersOf(const std::string& name);
+/// Those of a run. Throws InputError where its namespace holds none: a node must not fly another
+/// run than the one it was started for.
+XmlRpc::XmlRpcValue parametersOfRun(const RunNames& names);
+
+/// The living node that was the first to advertise a topic; empty: none does.
+std::string firstPublisher(const std::string& topic);
+
+/// Tells /rosout, which rqt_console and a log on another machine hear, beside the terminal.
+void tellRosout(const std::string& text);
 
 }  // namespace monarch_flight

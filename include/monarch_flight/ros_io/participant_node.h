@@ -7,6 +7,7 @@
 
 #include "monarch_flight/coupling/guidance.h"
 #include "monarch_flight/ros_io/lockstep_server.h"
+#include "monarch_flight/ros_io/run_names.h"
 #include "monarch_flight/ros_io/run_parameters.h"
 
 namespace monarch_flight {
@@ -29,7 +30,7 @@ class ParticipantOnStart : public Participant {
 /// it.
 class ParticipantNode {
  public:
-  /// Reads and checks the parameters of /monarch_flight. Throws InputError.
+  /// Reads and checks the parameters of the node's namespace. Throws InputError.
   ParticipantNode(Role role, const StopFlag& stop);
   /// The guidance node, with what `make` returns for the case.
   ParticipantNode(const StopFlag& stop,
@@ -38,6 +39,7 @@ class ParticipantNode {
   int run();
 
  private:
+  RunNames names_;
   Case case_;
   ParticipantOnStart participant_;
   LockstepServer server_;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "monarch_flight/ros_io/run_names.h"
 #include "monarch_flight/viz/pressure_picture.h"
 
 namespace monarch_flight {
@@ -22,7 +23,9 @@ class PressureView {
   void onPressure(Side side, const sensor_msgs::PointCloud2ConstPtr& cloud);
   void onTransforms(const tf2_msgs::TFMessage& transforms);
   void show(Side side);
+  visualization_msgs::MarkerArray named(visualization_msgs::MarkerArray markers) const;
 
+  RunNames names_;
   ros::NodeHandle node_;
   ros::Publisher markers_, legend_, transforms_;
   ros::Subscriber case_, tf_;

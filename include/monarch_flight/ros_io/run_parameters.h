@@ -11,7 +11,7 @@ class XmlRpcValue;
 namespace monarch_flight {
 
 /// What a person may set for a run, on the command line (key:=value) or as ROS parameters of the
-/// namespace /monarch_flight; an empty text means not given.
+/// namespace of the run; an empty text means not given.
 struct RunParameters {
   std::string name = "climb_controlled";  ///< `case`: name or path of the case file
   std::string out;             ///< folder of the results; empty: flights/<case>-<time>
@@ -25,10 +25,6 @@ struct RunParameters {
   double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
 };
 
-/// Name of the ROS parameter, below /monarch_flight, in which the coordinator tells the solver nodes
-/// the folder of the checkpoints: no message ever names a file.
-constexpr char kCheckpointsKey[] = "checkpoints";
-
 /// Checks keys and values. `where` is put before a key in messages ("/monarch_flight/" or "").
 /// Throws InputError with every fault: unknown keys, ranks that are no whole number > 0, a watchdog
 /// <= 0.
@@ -36,8 +32,8 @@ RunParameters runParameters(const std::map<std::string, std::string>& values,
                             const std::string& where);
 /// Of a command line; arguments of roslaunch (__name:=...) are skipped. Throws InputError.
 RunParameters runParameters(int argc, char** argv);
-/// Of the struct that the parameter server holds for the namespace `where`. Private parameters of
-/// the nodes other than diagnostic_period are unknown. Throws InputError.
+/// Of the struct that the parameter server holds for the namespace `where`; structs in it are
+/// private parameters of nodes and left alone. Throws InputError.
 RunParameters runParameters(XmlRpc::XmlRpcValue& parameters, const std::string& where);
 
 /// The case that the parameters name, with their overrides. Throws InputError.

@@ -12,12 +12,7 @@ namespace monarch_flight {
 /// overheard. An empty token seals nothing that a stranger could not seal, too.
 class Token {
  public:
-  /// Name of the environment variable; the launch files set it to a new random text in each run.
-  static constexpr char kVariable[] = "MONARCH_FLIGHT_TOKEN";
-
   explicit Token(std::string secret = "") : secret_(std::move(secret)) {}
-  /// Empty where the variable is not set.
-  static Token fromEnvironment();
 
   bool empty() const { return secret_.empty(); }
 

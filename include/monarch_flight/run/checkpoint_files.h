@@ -27,8 +27,9 @@ class CheckpointFiles {
   void open(std::uint32_t step) const;
   /// Writes a part of the open checkpoint: <part>.h5. Throws OutputError.
   void write(std::uint32_t step, const std::string& part, const StateRecord& record) const;
-  /// Ends it: from here on it counts, and all but the last two go. Throws OutputError.
-  void close(const CheckpointFacts& facts) const;
+  /// Ends it: from here on it counts, and all but the last two go. Throws OutputError, also where a
+  /// file of one of `parts` is missing (a solver of another make may give it its own ending).
+  void close(const CheckpointFacts& facts, const std::vector<std::string>& parts) const;
 
   /// Steps of the checkpoints there are, the newest first; they may be damaged.
   std::vector<std::uint32_t> steps() const;

@@ -56,6 +56,7 @@ class Checkpoints : public Keeper {
   std::string out_;
   std::string case_yaml_;
   std::uint32_t every_;
+  std::vector<std::string> parts_;     // of a whole checkpoint
   std::optional<std::uint32_t> kept_;  // the newest checkpoint
   std::optional<Resumption> resumption_;
   std::vector<std::uint32_t> refused_;

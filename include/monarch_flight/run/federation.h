@@ -18,6 +18,8 @@ namespace monarch_flight {
 std::unique_ptr<FluidModel> makeFluid(const Case& c, Side side = Side::kRight);
 /// Who takes part in a flight of the case.
 std::vector<Role> rolesOf(const Case& c);
+/// Part of a checkpoint that the coordinator's own guidance writes beside that of a guidance node.
+constexpr char kWingbeatPart[] = "wingbeat";
 /// What owns the motion of the case. `inbox`: where the commands of a person or a node arrive.
 std::unique_ptr<Guidance> makeGuidance(const Case& c,
                                        std::shared_ptr<CommandInbox> inbox = nullptr);

@@ -1,7 +1,10 @@
 #pragma once
+#include <std_msgs/ColorRGBA.h>
+
 #include <string>
 
 #include "monarch_flight/insect/insect.h"
+#include "monarch_flight/viz/mesh.h"
 
 namespace monarch_flight {
 
@@ -17,11 +20,16 @@ constexpr char kLeftPitch[] = "left_pitch";
 constexpr char kAbdomen[] = "abdomen_joint";
 }  // namespace joints
 
-/// Plain URDF of the insect. Root link base_link; all other links end in "_link", so that their tf
-/// frames (robot_state_publisher) are never those that the coordinator publishes: right_wing_link
-/// coincides with right_wing, and so on. Meshes are `mesh_uri` + right_wing.stl, left_wing.stl,
-/// thorax.stl, abdomen.stl.
+/// Plain URDF of the insect. Its links are the frames that the coordinator publishes, from
+/// base_link on; a robot_state_publisher would give the same ones from the joint states. Meshes are
+/// `mesh_uri` + right_wing.stl, left_wing.stl, thorax.stl, abdomen.stl.
 std::string insectUrdf(const Insect& insect, const std::string& mesh_uri);
+
+/// Body and abdomen as ellipsoids, the latter in its own frame.
+Mesh thoraxMesh(const Insect& insect);
+Mesh abdomenMesh(const Insect& insect);
+std_msgs::ColorRGBA wingColour();
+std_msgs::ColorRGBA bodyColour();
 
 /// Writes the meshes of insectUrdf into `directory` (made if missing). Throws InputError when a
 /// file cannot be written.
