@@ -1,4 +1,4 @@
-# Benchmarks: built only when asked for (`make bench_flow bench_kernels`; scripts/bench does).
+# Benchmarks: built only when asked for (`make bench_flow bench_kernels`; monarch bench does).
 function(add_bench name)
   add_executable(bench_${name} EXCLUDE_FROM_ALL bench/${name}.cpp)
   target_include_directories(bench_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)

@@ -1,4 +1,4 @@
-# Proofs of the flight dynamics: built only when asked for (`make verify_dynamics`; scripts/verify
+# Proofs of the flight dynamics: built only when asked for (`make verify_dynamics`; monarch verify
 # dynamics does). Simbody, the independent engine, is used by these alone.
 find_package(Simbody QUIET)
 file(GLOB dynamics_sources CONFIGURE_DEPENDS bench/dynamics/*.cpp bench/verify/report.cpp)

@@ -11,6 +11,9 @@ set(ROS_PACKAGES actionlib actionlib_msgs diagnostic_msgs diagnostic_updater geo
   rosgraph_msgs roslz4 sensor_msgs std_msgs std_srvs tf2_msgs topic_tools visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS message_generation ${ROS_PACKAGES})
 
+# The python package and monarch, in bin/; the messages join the package, so this comes before them.
+catkin_python_setup()
+
 add_message_files(DIRECTORY msg FILES BodyMotion.msg CoordinateResiduals.msg CouplingKey.msg FlightState.msg
   FluidKernelTimes.msg GuidanceState.msg Hello.msg IgnoredCounts.msg InterfaceState.msg JointMotion.msg
   LoadDerivatives.msg ParticipantReply.msg ParticipantRequest.msg PrescribedLevel.msg PressureFacet.msg RoleTimes.msg

@@ -1,4 +1,4 @@
-# The verification of the flow solver: built only when asked for (`make verify`; scripts/verify does).
+# The verification of the flow solver: built only when asked for (`make verify`; monarch verify does).
 file(GLOB verify_sources CONFIGURE_DEPENDS bench/verify/*.cpp)
 add_executable(verify EXCLUDE_FROM_ALL ${verify_sources})
 target_include_directories(verify PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR}/bench)

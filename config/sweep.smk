@@ -1,4 +1,4 @@
-# Flights of a sweep (scripts/sweep) side by side: a folder runs/<name> for each case file cases/<name>.yaml, then a table.
+# Flights of a sweep (monarch sweep) side by side: a folder runs/<name> for each case file cases/<name>.yaml, then a table.
 NAMES = glob_wildcards("cases/{name}.yaml").name
 
 
@@ -8,7 +8,7 @@ rule table:
     output:
         "table.csv",
     shell:
-        "/usr/bin/python3 {config[root]}/python/sweep.py table {output} {input}"
+        "{config[monarch]} sweep --table {output} {input}"
 
 
 # A flight that fails has a summary too and is a row of the table; one that was stopped is flown again.
@@ -20,9 +20,9 @@ rule fly:
     log:
         "logs/{name}.log",
     params:
-        options=config["options"] or "",  # of scripts/fly; other ones: flown again
+        options=config["options"] or "",  # of monarch fly; other ones: flown again
     shell:
         "rm -rf runs/{wildcards.name}; code=0; "
-        "{config[root]}/scripts/fly case:={input} out:=runs/{wildcards.name} in_process:=true rviz:=false"
+        "{config[monarch]} fly case:={input} out:=runs/{wildcards.name} in_process:=true rviz:=false"
         " {params.options} > {log} 2>&1 || code=$?; "
         "[ $code -ne 130 ] && [ -f {output} ] || {{ tail -n 3 {log} >&2; exit 1; }}"

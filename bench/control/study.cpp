@@ -1,5 +1,5 @@
 // How well a controller holds in quasi-steady air: long flight, random starts, gusts, set points
-// moved (docs/guidance.md). scripts/study_control calls it.
+// moved (docs/guidance.md). monarch study-control calls it.
 #include "control/study.h"
 
 #include <algorithm>

@@ -39,7 +39,7 @@ class Problems {
     if (m.rows() == rows && m.cols() == columns && m.allFinite()) return;
     add(key + " has " + std::to_string(m.rows()) + " rows of " + std::to_string(m.cols()),
         "be " + std::to_string(rows) + " rows of " + std::to_string(columns) +
-            " finite numbers; let scripts/trim write them (control:=true)");
+            " finite numbers; let monarch trim write them (control:=true)");
   }
   void positive(const std::string& key, double value, const std::string& remedy) {
     if (std::isfinite(value) && value > 0.0) return;

@@ -1,4 +1,4 @@
-// scripts/inverse_dynamics without ROS: what a flown motion needs besides air and gravity.
+// monarch inverse-dynamics without ROS: what a flown motion needs besides air and gravity.
 #include "monarch_flight/run/inverse_dynamics.h"
 
 #include <cstdlib>

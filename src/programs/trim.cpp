@@ -1,4 +1,4 @@
-// scripts/trim without ROS: finds a periodic flight of a case.
+// monarch trim without ROS: finds a periodic flight of a case.
 #include <cstdlib>
 #include <exception>
 #include <iostream>

@@ -33,7 +33,8 @@ RunNames RunNames::ofThisNode() {
   const std::string& space = ros::this_node::getNamespace();
   XmlRpc::XmlRpcValue prefix = parametersOf(RunNames(space).topic("frame_prefix"));
   const bool given = prefix.getType() == XmlRpc::XmlRpcValue::TypeString;
-  return RunNames(space, given ? static_cast<std::string>(prefix) : "");
+  const std::string text = given ? static_cast<std::string>(prefix) : "";
+  return RunNames(space, text == "auto" ? "" : text);
 }
 
 std::string RunNames::topic(const std::string& name) const {

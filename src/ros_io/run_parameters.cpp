@@ -2,15 +2,17 @@
 
 #include <XmlRpcValue.h>
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <stdexcept>
 
 #include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/ros_io/token_file.h"
 #include "monarch_flight/run/plan.h"
+#include "monarch_flight/run/run_keys.h"
 
 namespace monarch_flight {
 namespace {
@@ -19,20 +21,17 @@ namespace fs = std::filesystem;
 using Values = std::map<std::string, std::string>;
 using Faults = std::vector<std::string>;
 
-/// Known keys: of a command line (`where` is empty), or of the parameter server.
-std::string known(const std::string& where) {
-  const std::string common =
-      "case, out, resume, directory, fluid, grid, wings, guidance, guidance_file, flaps, "
-      "steps_per_flap, "
-      "record, fields_every, checkpoint_every, ranks, paused, ";
-  return common + (where.empty() ? "plan" : "watchdog, frame_prefix, token_file");
-}
+constexpr char kNotGiven[] = "auto";  // of launch files, whose optional arguments need a default
 
-bool oneOf(const std::string& key, std::initializer_list<const char*> names) {
-  for (const char* name : names) {
-    if (key == name) return true;
+/// Who takes the keys: a command line (`where` is empty), or the parameter server.
+std::string taker(const std::string& where) { return where.empty() ? "program" : "server"; }
+
+std::string known(const std::string& where) {
+  std::string names;
+  for (const RunKey& key : runKeys(configDirectory())) {
+    if (key.takenBy(taker(where))) names += (names.empty() ? "" : ", ") + key.name;
   }
-  return false;
+  return names;
 }
 
 // The shortest text that reads back as the same number: nodes and command line then agree bit for
@@ -46,52 +45,51 @@ std::string shortest(double value) {
   return text;
 }
 
-double positiveNumber(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return (*end == '\0' && std::isfinite(value) && value > 0.0) ? value : 0.0;
+// A key with an allowed value into its place.
+void assign(const RunKey& key, const std::string& value, RunParameters& out) {
+  const std::map<std::string, std::string*> texts = {{"case", &out.name},
+                                                     {"out", &out.out},
+                                                     {"resume", &out.resume},
+                                                     {"directory", &out.directory}};
+  const auto text = texts.find(key.name);
+  if (!key.override.empty()) {
+    out.overrides[key.name] = value;
+  } else if (text != texts.end()) {
+    *text->second = value;
+  } else if (key.name == "plan") {
+    out.plan = value == "true";
+  } else if (key.name == "paused") {
+    out.paused = value == "true";
+  } else if (key.name == "watchdog") {
+    out.watchdog_s = std::strtod(value.c_str(), nullptr);
+  } else if (key.name == "ranks") {
+    out.ranks = static_cast<int>(std::strtod(value.c_str(), nullptr));
+  } else if (key.name != "frame_prefix" && key.name != kTokenFileKey) {  // RunNames, TokenFile
+    throw std::logic_error("config/keys.yaml: " + key.name + " has no place in RunParameters");
+  }
 }
 
-void take(const std::string& key, const std::string& value, const std::string& where,
+void take(const std::string& name, const std::string& value, const std::string& where,
           RunParameters& out, Faults& faults) {
-  const std::string shown = where + key + " = " + value;
-  if (key == "case") {
-    out.name = value;
-  } else if (key == "out") {
-    out.out = value;
-  } else if (key == "resume") {
-    out.resume = value;
-  } else if (oneOf(key, {"frame_prefix", "token_file"}) && !where.empty()) {
-    // RunNames, TokenFile
-  } else if (key == "directory") {
-    out.directory = value;
-  } else if (oneOf(key, {"fluid", "grid", "wings", "guidance", "guidance_file", "flaps",
-                         "steps_per_flap", "record", "fields_every", "checkpoint_every"})) {
-    out.overrides[key] = value;
-  } else if (key == "plan" && where.empty()) {
-    out.plan = value == "true";
-    if (!out.plan && value != "false") faults.push_back(shown + ": must be true or false");
-  } else if (key == "watchdog" && !where.empty()) {
-    out.watchdog_s = positiveNumber(value);
-    if (out.watchdog_s == 0.0) faults.push_back(shown + ": must be a number of seconds > 0");
-  } else if (key == "paused") {
-    out.paused = value == "true";
-    if (value != "true" && value != "false") faults.push_back(shown + ": must be true or false");
-  } else if (key == "ranks") {
-    const double ranks = positiveNumber(value);
-    out.ranks = static_cast<int>(ranks);
-    if (ranks < 1.0 || ranks > 10000.0 || out.ranks != ranks) {
-      faults.push_back(shown + ": must be a whole number from 1 to 10000");
-    }
+  const RunKey* key = findKey(runKeys(configDirectory()), name);
+  if (key == nullptr || !key->takenBy(taker(where))) {
+    faults.push_back(where + name + ": unknown parameter; known are " + known(where));
+    return;
+  }
+  // Overrides are checked with the case.
+  const std::string allowed = key->override.empty() ? key->fault(value) : "";
+  if (allowed.empty()) {
+    assign(*key, value, out);
   } else {
-    faults.push_back(where + key + ": unknown parameter; known are " + known(where));
+    faults.push_back(where + name + " = " + value + ": must be " + allowed);
   }
 }
 
 RunParameters checked(const Values& values, const std::string& where, Faults faults) {
   RunParameters out;
   for (const auto& [key, value] : values) {
-    if (!value.empty()) take(key, value, where, out, faults);
+    const bool given = !value.empty() && (value != kNotGiven || where.empty());
+    if (given) take(key, value, where, out, faults);
   }
   if (!out.resume.empty() && !out.out.empty()) {
     faults.push_back(where + "out = " + out.out + ": a resumed run goes on in its own folder (" +

@@ -170,7 +170,7 @@ void checkAgainst(const Case& c, const ControllerSettings& s, Section& section) 
   for (const SetPoint& point : s.set_points) {
     if (!point.heading || s.lateral) continue;
     section.fault("set_points/headings_deg",
-                  ": needs the section lateral to be followed; let scripts/trim write it "
+                  ": needs the section lateral to be followed; let monarch trim write it "
                   "(control:=true with wings:=independent), or leave the key out");
     break;
   }

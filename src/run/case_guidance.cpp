@@ -77,7 +77,7 @@ std::optional<ControllerSettings> readLaw(Section& section, double time_constant
     section.fault("time_constant", " = " + exactText(time_constant) + " flaps: must be " +
                                        exactText(law->time_constant) +
                                        ", for which the controller's gains were made; or make "
-                                       "others (scripts/trim control:=true time_constant:=...)");
+                                       "others (monarch trim control:=true time_constant:=...)");
   }
   return law;
 }
@@ -137,7 +137,7 @@ GuidanceSettings readGuidance(Section section, double frequency, const Case& c, 
     section.take("controller");
     section.fault("controller",
                   " is missing: this case has no controller; take climb_controlled, or make one "
-                  "with scripts/trim <case> control:=true out:=<new case>");
+                  "with monarch trim <case> control:=true out:=<new case>");
   } else if (settings.kind == GuidanceKind::kController) {
     settings.controller = readLaw(section, time_constant, c, faults);
   } else {

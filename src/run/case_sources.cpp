@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/run/run_keys.h"
 #include "run/case_document.h"
 
 namespace monarch_flight {
@@ -104,35 +105,36 @@ void checkTwins(const YAML::Node& map, const std::string& above, Faults& faults)
   }
 }
 
-void applyOverrides(YAML::Node root, const CaseOverrides& overrides, Faults& faults) {
-  const std::map<std::string, std::pair<const char*, const char*>> known{
-      {"fluid", {"fluid", "solver"}},
-      {"wings", {"", "wings"}},
-      {"guidance", {"guidance", "type"}},
-      {"guidance_file", {"guidance", "file"}},
-      {"flaps", {"time", "flaps"}},
-      {"steps_per_flap", {"time", "steps_per_flap"}},
-      {"record", {"output", "record"}},
-      {"fields_every", {"output", "fields_every"}},
-      {"checkpoint_every", {"output", "checkpoint_every"}}};
+std::string overrideNames(const std::vector<RunKey>& keys) {
+  std::string names;
+  for (const RunKey& key : keys) {
+    if (!key.override.empty()) names += (names.empty() ? "" : ", ") + key.name;
+  }
+  return names;
+}
+
+void applyOverrides(YAML::Node root, const CaseOverrides& overrides, const std::string& config_dir,
+                    Faults& faults) {
+  if (overrides.empty()) return;
+  const std::vector<RunKey>& keys = runKeys(config_dir);
   for (const auto& [key, value] : overrides) {
     if (key == "grid") {
       overrideGrid(root, value);
       continue;
     }
-    const auto target = known.find(key);
-    if (target == known.end()) {
-      faults.add(
-          key + ":=" + value +
-          " is not a known override: known are fluid, grid, wings, guidance, guidance_file, flaps, "
-          "steps_per_flap, record, fields_every, checkpoint_every; correct or remove it");
+    const RunKey* known = findKey(keys, key);
+    if (known == nullptr || known->override.empty()) {
+      faults.add(key + ":=" + value + " is not a known override: known are " + overrideNames(keys) +
+                 "; correct or remove it");
       continue;
     }
-    const auto [section, name] = target->second;
-    if (*section == '\0') {
-      root[name] = value;
+    const std::size_t mark = known->override.find('/');
+    if (mark == std::string::npos) {
+      root[known->override] = value;
       continue;
     }
+    const std::string section = known->override.substr(0, mark);
+    const std::string name = known->override.substr(mark + 1);
     if (!get(root, section).IsDefined() || !get(root, section).IsMap()) continue;
     root[section][name] = value;
     if (key == "guidance_file") root[section].remove("rows");  // of a resolved case
@@ -181,7 +183,7 @@ YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,
   YAML::Node root = overlaid(loadMap(fs::path(config_dir) / "defaults.yaml"), given);
   layBelow(root, "insect", "preset", ".yaml", config_dir, faults);
   layBelow(root, "motion", "series", "_kinematics.yaml", config_dir, faults);
-  applyOverrides(root, overrides, faults);
+  applyOverrides(root, overrides, config_dir, faults);
   const auto file = overrides.find("guidance_file");
   const YAML::Node type = get(get(root, "guidance"), "type");
   if (file != overrides.end() && !(type.IsDefined() && type.Scalar() == "replay")) {

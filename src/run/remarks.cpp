@@ -17,7 +17,7 @@ std::vector<std::string> runRemarks(const Case& c, std::uint32_t steps) {
     remarks.push_back(
         "the controller has no section lateral: roll, heading and side-slip are left alone, and "
         "the "
-        "flight may leave the plane; let scripts/trim write one (control:=true, "
+        "flight may leave the plane; let monarch trim write one (control:=true, "
         "wings:=independent), "
         "or set free/y, free/roll and free/yaw to false");
   }

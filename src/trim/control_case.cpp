@@ -76,7 +76,7 @@ void provenance(std::ostream& out, const Case& c, const ControlDesign& d) {
   const ControlOptions& o = d.options;
   const char* indent = "    # ";
   out << indent
-      << "status: computed by scripts/trim control:=true (docs/guidance.md) from the case "
+      << "status: computed by monarch trim control:=true (docs/guidance.md) from the case "
       << c.name << ", in quasi-steady air\n"
       << indent << "at " << std::lround(c.time.stepsPerFlap()) << " steps a flap, filters of "
       << number(o.time_constant, 4) << " flaps. Weights: state " << number(o.state_weight, 3)

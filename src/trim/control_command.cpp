@@ -1,4 +1,4 @@
-// `scripts/trim control:=true`.
+// `monarch trim control:=true`.
 #include <cmath>
 #include <ostream>
 
@@ -80,7 +80,7 @@ int runControl(TrimCommand command, const std::string& config_dir, std::ostream&
     edit.remove({"guidance"});
     edit.set({"name"}, written.name + "_controlled");
     writeWhole(command.out,
-               "# Made by scripts/trim control:=true (docs/guidance.md) from the case " +
+               "# Made by monarch trim control:=true (docs/guidance.md) from the case " +
                    written.name + ".\n" + edit.text() + guidanceSection(c, design));
     out << "case: " << command.out << std::endl;
   }

@@ -124,7 +124,7 @@ std::string trimmedCase(const FlapMap& map, const TrimOptions& options, const Tr
   if (c.free[kThetaR]) comments["motion/theta_R_deg"] = "Run-in and start; status: " + how;
   comments["coupling/prescribed_steps"] = "The run-in: these steps fly the periodic motion above.";
   std::ostringstream head;
-  head << "# Made by scripts/trim (docs/trim.md) from the case " << c.name
+  head << "# Made by monarch trim (docs/trim.md) from the case " << c.name
        << ". Numbers without a comment are that case's.\n# Largest Floquet multiplier "
        << number(std::abs(result.floquet.front().multiplier), 4) << " a flap.\n";
   return head.str() + edit.text(comments);

@@ -1,5 +1,5 @@
 // The flow solver against Taylor-Green vortices, Stokes' first problem and the momentum balance.
-// The full studies: scripts/verify.
+// The full studies: monarch verify.
 #include <gtest/gtest.h>
 
 #include <cmath>

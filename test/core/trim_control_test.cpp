@@ -207,7 +207,7 @@ class ControlCase : public CaseTest {};
 TEST_F(ControlCase, SectionIsReadAsItWasDesigned) {
   const Designed& d = Designed::get();
   const std::string section = guidanceSection(d.c, d.design);
-  for (const char* part : {"status: computed by scripts/trim control:=true", "quasi-steady air",
+  for (const char* part : {"status: computed by monarch trim control:=true", "quasi-steady air",
                            "200 steps a flap", "Floquet multipliers"})
     expectHas(section, part);
   const std::string text = withGuidance(d.c, section);

@@ -62,7 +62,7 @@ class Fields(flying.FlightTest):
         if shutil.which("Xvfb") is None:
             self.skipTest("Xvfb is not installed")
         picture = self.out("flow.png")
-        done = subprocess.run([flying.ROOT + "/scripts/render_field", self.out("alone"), picture, "size:=400x300"],
+        done = subprocess.run([flying.MONARCH, "render-field", self.out("alone"), picture, "size:=400x300"],
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertIn("t/T = 0.010", done.stdout)

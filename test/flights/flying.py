@@ -6,13 +6,16 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BUILD = os.environ.get("MONARCH_BUILD", os.path.join(ROOT, "build"))
+MONARCH = os.path.join(ROOT, "scripts", "monarch")
 NODE_DIR = os.path.join(BUILD, "devel", "lib", "monarch_flight")
+sys.path.insert(0, os.path.join(ROOT, "python"))
 
 
 def free_port():

@@ -31,7 +31,7 @@ class Language(flying.FlightTest):
         code, output = self.fly("case:=climb_printed", "fluid:=quasi_steady", "in_process:=true", "flaps:=0.1",
                                 "out:=" + self.out(), **german)
         self.assertEqual(code, 0, output)
-        taken = subprocess.run([os.path.join(flying.ROOT, "scripts", "screenshot"), self.out() + "/flight.bag"],
+        taken = subprocess.run([flying.MONARCH, "screenshot", self.out() + "/flight.bag"],
                                capture_output=True, text=True, timeout=300, env=self.environment(**german), check=False)
         self.assertEqual(taken.returncode, 0, taken.stdout + taken.stderr)
         self.assertGreater(os.path.getsize(self.out() + "/flight.png"), 10000)

@@ -4,6 +4,7 @@ import subprocess
 import time
 
 import flying
+from monarch_flight.runs import master
 
 
 class Leader(flying.FlightTest):
@@ -14,9 +15,7 @@ class Leader(flying.FlightTest):
         core = subprocess.Popen(["roscore", "-p", self.master.rsplit(":", 1)[1]],
                                 stdout=subprocess.DEVNULL, env=environment)
         self.addCleanup(self.end, core)
-        self.wait_for(lambda: subprocess.call(
-            [os.path.join(flying.ROOT, "scripts", "master"), "answers", self.master]) == 0,
-            30, "roscore")
+        self.wait_for(lambda: master.answers(self.master), 30, "roscore")
         os.environ.update(ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")
         # On wall time: a held run's clock stands still.
         import rospy

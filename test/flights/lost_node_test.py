@@ -68,9 +68,9 @@ class LostNode(flying.FlightTest):
         self.assertFalse(os.path.exists(self.out() + "/flight.bag"))  # half a bag has another name
 
     def test_launcher(self):
-        """What roslaunch leaves behind when it is killed is ended, and its last step kept."""
+        """What the launcher leaves behind when it is killed is ended, and its last step kept."""
         process, pids = self.airborne()
-        launcher = subprocess.run(["pgrep", "-f", "roslaunch.*" + re.escape(self.out())], check=True,
+        launcher = subprocess.run(["pgrep", "-f", "runs.launcher.*" + re.escape(self.out())], check=True,
                                   capture_output=True, text=True).stdout.split()
         for pid in launcher:
             os.kill(int(pid), signal.SIGKILL)

@@ -9,7 +9,7 @@ import flying
 
 LIMIT = 60.0  # seconds
 # The coordinator leaves when the fluid is lost, and may be gone before mpirun is.
-NODE_DIED = "fly: the node monarch_flight/(fluid|coordinator) died"
+NODE_DIED = "fly: the node monarch_flight/(fluid|coordinator) (died|ended with exit code)"
 
 
 def processes_of(folder, program):

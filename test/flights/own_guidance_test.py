@@ -105,7 +105,7 @@ class OwnGuidance(Guided):
         self.assertIn("fluid_node:=nobody.py: no program of this name in the package; put it into",
                       output)
         self.assertNotIn("roslaunch", output)
-        self.assertEqual(len(output.splitlines()), 2, output)
+        self.assertEqual(len(output.splitlines()), 3, output)  # and that nothing was flown
         self.assertFalse(os.path.exists(self.out()))
 
     def test_wrong_keys(self):

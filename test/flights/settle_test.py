@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A controlled flight settles; the case that scripts/settle writes goes on with it, and needs smaller commands."""
+"""A controlled flight settles; the case that monarch settle writes goes on with it, and needs smaller commands."""
 import math
 import os
 import re
@@ -22,7 +22,7 @@ class Settle(flying.FlightTest):
 
     def settle(self, name, *keys):
         """Exit code, output."""
-        done = subprocess.run([os.path.join(flying.ROOT, "scripts/settle"), self.out(name), *keys], stdout=subprocess.PIPE,
+        done = subprocess.run([flying.MONARCH, "settle", self.out(name), *keys], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False)
         return done.returncode, done.stdout
 

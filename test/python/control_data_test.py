@@ -1,6 +1,4 @@
 """What the figures of controlled flights are drawn from, and the summary's line of guidance."""
-import importlib.machinery
-import importlib.util
 import math
 import pathlib
 import sys
@@ -12,9 +10,10 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
-import control_data as control  # noqa: E402
 import led_flights as made  # noqa: E402
-from led_flight import LedFlight  # noqa: E402
+from monarch_flight.figures import control_data as control  # noqa: E402
+from monarch_flight.runs import summary  # noqa: E402
+from monarch_flight.settling.led_flight import LedFlight  # noqa: E402
 
 
 class Controlled(unittest.TestCase):
@@ -92,9 +91,6 @@ class Controlled(unittest.TestCase):
 
 class Summary(unittest.TestCase):
     def test_guidance(self):
-        loader = importlib.machinery.SourceFileLoader("summary", str(ROOT / "scripts/summary"))
-        summary = importlib.util.module_from_spec(importlib.util.spec_from_loader("summary", loader))
-        loader.exec_module(summary)
         told = dict(type="controller", clipped=3, refused=1, lost_from_flap=None)
         self.assertEqual(summary.guidance(told), "controller, 3 commands cut to their bounds, 1 refused")
         self.assertEqual(summary.guidance(told | dict(clipped=1, refused=0, lost_from_flap=7)),

@@ -14,9 +14,9 @@ from genpy.dynamic import generate_dynamic
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
-import case_files  # noqa: E402
-import figure_data as data  # noqa: E402
-import sweep  # noqa: E402
+from monarch_flight import case_files  # noqa: E402
+from monarch_flight.figures import data  # noqa: E402
+from monarch_flight.runs import sweep  # noqa: E402
 
 
 class Forces(unittest.TestCase):
@@ -132,15 +132,14 @@ class Sweep(unittest.TestCase):
             folder = pathlib.Path(name)
             (folder / "out/cases").mkdir(parents=True)
             (folder / "out/cases/a_1.yaml").write_text("name: a", encoding="utf-8")
-            (folder / "scripts").mkdir()
-            fly = folder / "scripts/fly"
-            fly.write_text('#!/bin/bash\nmkdir -p "${2#out:=}"; echo "$*" >"${2#out:=}/summary.json"\n', encoding="utf-8")
+            fly = folder / "monarch"
+            fly.write_text('#!/bin/bash\nmkdir -p "${3#out:=}"; echo "$*" >"${3#out:=}/summary.json"\n', encoding="utf-8")
             fly.chmod(0o755)
             flown = []
             for options in ("flaps:=2", "flaps:=2", "flaps:=3"):
                 subprocess.run(["snakemake", "--snakefile", str(ROOT / "config/sweep.smk"), "--directory", str(folder / "out"),
                                 "--cores", "1", "runs/a_1/summary.json", "--nolock", "--quiet", "rules", "--config",
-                                f"root={folder}", f"options= {options}"], check=True, capture_output=True)
+                                f"monarch={fly}", f"options= {options}"], check=True, capture_output=True)
                 summary = folder / "out/runs/a_1/summary.json"
                 flown.append((summary.read_text(encoding="utf-8").split()[-1], summary.stat().st_mtime_ns))
         self.assertEqual(flown[0], flown[1])

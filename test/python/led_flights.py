@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-import case_files
-from led_flight import COMMANDS
+from monarch_flight import case_files
+from monarch_flight.settling.led_flight import COMMANDS
 
 F = 10.0  # [Hz]
 STEPS, SAMPLES = 20, 10  # a flap

@@ -11,7 +11,7 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
-import marker_reduction as reduction  # noqa: E402
+from monarch_flight.measured import marker_reduction as reduction  # noqa: E402
 
 MARKERS = ROOT / "config/measured/monarch_markers.csv"
 BETA = math.radians(25.0)
@@ -94,7 +94,7 @@ class WrongInput(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "markers.csv"
             path.write_text(text, encoding="utf-8")
-            run = subprocess.run([ROOT / "scripts/reduce_vicon", path, "--out", folder + "/out"], check=False,
+            run = subprocess.run([ROOT / "scripts/monarch", "reduce-vicon", path, "--out", folder + "/out"], check=False,
                                  capture_output=True, text=True)
             self.assertNotEqual(run.returncode, 0)
             self.assertNotIn("Traceback", run.stderr)

@@ -11,12 +11,11 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
-import case_files  # noqa: E402
 import led_flights as made  # noqa: E402
-import settle  # noqa: E402
-import settled_case  # noqa: E402
-import settled_motion  # noqa: E402
-from led_flight import LedFlight  # noqa: E402
+from monarch_flight import case_files  # noqa: E402
+from monarch_flight.command.main import main as monarch  # noqa: E402
+from monarch_flight.settling import settle, settled_case, settled_motion  # noqa: E402
+from monarch_flight.settling.led_flight import LedFlight  # noqa: E402
 
 MEANS = dict(amplitude=0.04, deviation_mean=0.02, flapping_mean=-0.03, rest_angle=0.05, abdomen_mean=0.01, abdomen_amplitude=0.1)
 
@@ -33,7 +32,7 @@ class Folder(unittest.TestCase):
     def command(self, *arguments):
         out, errors = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            code = settle.main([str(argument) for argument in arguments])
+            code = monarch(["settle", *(str(argument) for argument in arguments)])
         return code, out.getvalue() + errors.getvalue()
 
 
@@ -224,7 +223,7 @@ class Files(Folder):
         code, text = self.command(self.folder / "run", f"out:={out}")
         self.assertEqual(code, 0, text)
         written = out.read_text(encoding="utf-8")
-        for words in ("# Made by scripts/settle", "amplitude +4 %", "# status: flown, mean of the flaps 4 to 6 of run/flight.csv",
+        for words in ("# Made by monarch settle", "amplitude +4 %", "# status: flown, mean of the flaps 4 to 6 of run/flight.csv",
                       "name: periodic\n"):
             self.assertIn(words, written)
         expected = settled_case.settled(flight, settle.judge(flight, settle.Bounds()), "periodic")[0]
@@ -249,7 +248,7 @@ class Files(Folder):
         self.assertIn("guidance/type = motion: must be controller, commands or node", text)
         code, text = self.command(self.folder / "nowhere", "flaps:=x", "repeat:=-1", "bound:=2", "out:=new")
         self.assertEqual(code, 2)
-        for words in ("flaps:=x: must be a whole number", "repeat:=-1: must be a number > 0", "'bound:=2': unknown",
+        for words in ("flaps:=x: must be a whole number", "repeat:=-1: must be a number > 0", "unknown key 'bound'",
                       "must end in .yaml"):
             self.assertIn(words, text)
         self.assertIn("case.yaml: does not exist", self.command(self.folder / "nowhere")[1])

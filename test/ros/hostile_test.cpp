@@ -1,6 +1,6 @@
 // Broken, stale, foreign, repeated and forged messages on every topic of the protocol while the
 // real nodes fly: refused, counted, and without a trace in the flight. MONARCH_HOSTILE_MESSAGES is
-// the number on each topic (scripts/hostile).
+// the number on each topic (monarch hostile).
 #include <diagnostic_msgs/DiagnosticArray.h>
 
 #include <cstdio>

@@ -5,6 +5,7 @@
 #include "core/mutation.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/ros_io/run_parameters.h"
+#include "monarch_flight/run/run_keys.h"
 
 namespace monarch_flight {
 namespace {
@@ -61,6 +62,28 @@ TEST(RunParameters, EveryFaultIsNamedAtOnce) {
   EXPECT_NE(std::string::npos, faults.find("'flaps:=': has no value"));
   EXPECT_NE(std::string::npos, faults.find("'nonsense': must be key:=value"));
   EXPECT_NE(std::string::npos, faults.find("'case:=b': this key is given twice"));
+}
+
+/// Every key of the table has a place, for whoever takes it.
+TEST(RunParameters, EveryKeyOfTheTableIsKnown) {
+  const std::map<std::string, std::string> samples = {
+      {"truth", "true"}, {"number", "2"}, {"count", "1"}, {"path", "x"}, {"case", "hinge"}};
+  int known = 0;
+  for (const RunKey& key : runKeys(CONFIG_DIR)) {
+    const std::string value = key.choices.empty()
+                                  ? samples.count(key.type) ? samples.at(key.type) : "x"
+                                  : key.choices.front();
+    for (const std::string where : {"", "/monarch_flight/"}) {
+      const bool taken = key.takenBy(where.empty() ? "program" : "server");
+      known += taken;
+      if (taken) {
+        EXPECT_NO_THROW(runParameters({{key.name, value}}, where)) << where << key.name;
+      } else {
+        EXPECT_THROW(runParameters({{key.name, value}}, where), InputError) << where << key.name;
+      }
+    }
+  }
+  EXPECT_GT(known, 30);
 }
 
 TEST(RunParameters, NothingSetMeansTheShippedFlight) {

@@ -17,7 +17,7 @@ struct RunParameters {
   std::string out;             ///< folder of the results; empty: flights/<case>-<time>
   std::string resume;          ///< folder of a run to go on with; empty: a new run
   std::string directory;       ///< where relative paths start; empty: the working directory
-  /// fluid, grid, flaps, steps_per_flap, record, fields_every, checkpoint_every
+  /// keys of config/keys.yaml that go in place of what the case file says
   CaseOverrides overrides;
   bool plan = false;           ///< `plan`: tell what the run means and end (command line only)
   int ranks = 1;               ///< `ranks`: processes of the flow solver
@@ -25,9 +25,8 @@ struct RunParameters {
   double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
 };
 
-/// Checks keys and values. `where` is put before a key in messages ("/monarch_flight/" or "").
-/// Throws InputError with every fault: unknown keys, ranks that are no whole number > 0, a watchdog
-/// <= 0.
+/// Checks keys and values by config/keys.yaml. `where` is put before a key in messages
+/// ("/monarch_flight/" or ""). Throws InputError with every fault.
 RunParameters runParameters(const std::map<std::string, std::string>& values,
                             const std::string& where);
 /// Of a command line; arguments of roslaunch (__name:=...) are skipped. Throws InputError.

@@ -65,8 +65,8 @@ struct Case {
   std::string sha256;            ///< of resolved_yaml, hex: what the handshake compares
 };
 
-/// `overrides` from the command line: fluid, grid, guidance, guidance_file, flaps, steps_per_flap,
-/// record, fields_every, checkpoint_every (each a YAML scalar).
+/// `overrides` from the command line: keys of config/keys.yaml with a place in the case file, each a
+/// YAML scalar.
 using CaseOverrides = std::map<std::string, std::string>;
 
 /// Reads a case by name (config/cases/<name>.yaml under `config_dir`) or by path; applies overrides;

@@ -44,7 +44,7 @@ HingeFit fitHinge(const std::vector<RequiredLoads>& rows);
 /// Writes t and the required loads with a header line.
 void writeRequiredLoads(const std::vector<RequiredLoads>& rows, std::ostream& out);
 
-/// scripts/inverse_dynamics: reads case.yaml and flight.csv of the folder `run`, takes the flaps
+/// monarch inverse-dynamics: reads case.yaml and flight.csv of the folder `run`, takes the flaps
 /// `from` to `to` (counted from 0, `to` < 0: to the end), writes inverse_dynamics.csv into the
 /// folder and a summary to `out`. InputError for a folder without them and an empty window.
 void runInverseDynamics(const std::string& run, double from, double to,

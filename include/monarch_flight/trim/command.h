@@ -9,7 +9,7 @@
 
 namespace monarch_flight {
 
-/// What `scripts/trim` was asked for.
+/// What `monarch trim` was asked for.
 struct TrimCommand {
   std::string case_name = "climb_printed";
   CaseOverrides overrides;  ///< fluid, grid, steps_per_flap

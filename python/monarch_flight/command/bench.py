@@ -1,0 +1,37 @@
+"""Measures speed, stage by stage: steps (whole steps of the flow solver on four grids), kernels (beside triad and
+dgemm), ranks (two processes against one), coupling (exchanges over topics), and beside peers: hypre, openfoam
+(docs/performance.md).
+
+A peer is installed with apt when it is asked for. CPU times of one core; the quieter the machine, the better they
+repeat. Without a stage: steps, kernels, ranks, and the peers given."""
+import os
+
+from monarch_flight import keys, preparing
+from monarch_flight.keys import Key, Table
+
+STAGES = ("steps", "kernels", "ranks", "coupling", "hypre", "openfoam")
+PEERS = ("hypre", "openfoam")
+KEYS = Table([Key("out", "path", "folder of bench.json", default="bench_results")])
+
+
+def add_arguments(parser):
+    parser.add_argument("words", nargs="*", metavar="STAGE | key:=value")
+    parser.add_argument("--peer", action="append", default=[], choices=PEERS)
+    parser.add_argument("--hypre-cells", type=float, action="append", help="of the comparison with hypre (0.65e6)")
+    parser.add_argument("--repeats", type=int, default=10, help="steps that are measured (10)")
+    parser.add_argument("--rounds", type=int, default=3, help="of four steps each, beside OpenFOAM (3)")
+    parser.add_argument("--cells", type=float, default=0.65e6, help="of the comparison with OpenFOAM (0.65e6)")
+    parser.epilog = KEYS.help()
+
+
+def run(arguments):
+    values, stages, faults = KEYS.read(arguments.words, plain=True)
+    faults += [f"'{name}': must be out:=DIR or one of {', '.join(STAGES)}{keys.nearest(name, STAGES)}"
+               for name in stages if name not in STAGES]
+    if faults:
+        raise keys.Refused(*faults)
+    stages = (stages or ["steps", "kernels", "ranks"]) + arguments.peer
+    root = preparing.source_only("bench")
+    preparing.installed("fly", "bench", *(name for name in PEERS if name in stages))
+    from monarch_flight.trials import bench
+    return bench.measure(stages, os.path.abspath(values.get("out", root / "bench_results")), arguments)

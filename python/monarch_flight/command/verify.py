@@ -1,0 +1,59 @@
+"""Compares the package with something known: the flow solver with exact solutions, tables and experiments
+(docs/verification.md), or, with the name dynamics, the flight dynamics: conservation, exact motions, published
+histories, an independent engine (docs/dynamics.md).
+
+monarch verify [NAME ...]
+  of the flow: direct_solve added_mass uniform_stream affine taylor_green stokes blasius momentum_balance (the quick
+  ones, which run without a name), plate_re100 rim stability monarch_flap outer, or all
+monarch verify dynamics [NAME ...]
+  reduced exact momentum energy newmark published simbody; without a name all of them
+
+The core is compiled without ROS. The exit code is 0 only if every row is within its bound. What the files hold of
+other names is kept."""
+import os
+import subprocess
+
+from monarch_flight import keys, preparing
+from monarch_flight.keys import Key, Table
+
+SECTIONS = ("fly", "verify")
+KEYS = Table([
+    Key("out", "path", "folder of verification.json and of the curves", default="verification"),
+    Key("images", "path", "folder of the plots of the flow, as docs/images, which renews those of the documentation",
+        default="that of out")])
+
+
+def add_arguments(parser):
+    parser.add_argument("words", nargs="*", metavar="NAME | key:=value")
+    parser.epilog = KEYS.help()
+
+
+def flow(names, values):
+    root = preparing.source_only("verify")
+    preparing.installed("fly", "verify")
+    folder = os.environ.get("MONARCH_VERIFY_BUILD") or os.environ.get("MONARCH_BUILD") or root / "build/verify"
+    program = preparing.core_built("verify", "verify", folder)
+    out = values.get("out", "verification")
+    code = subprocess.run([program, *names, "out:=" + out], env=preparing.one_threaded(), check=False).returncode
+    if code in (0, 1):
+        from monarch_flight.figures import verification
+        verification.draw_all(out, values.get("images", out))
+    return code
+
+
+def dynamics(names, values):
+    preparing.source_only("verify")
+    preparing.installed("fly", "dynamics")
+    program = preparing.core_built("verify_dynamics", "verify dynamics")
+    words = names + [f"out:={values['out']}"] * ("out" in values)
+    return subprocess.run([program, *words], env=preparing.one_threaded(), check=False).returncode
+
+
+def run(arguments):
+    values, names, faults = KEYS.read(arguments.words, plain=True)
+    part = names[0] if names and names[0] in ("flow", "dynamics") else ""
+    if part == "dynamics" and "images" in values:
+        faults.append(f"images:={values['images']}: the dynamics have no plots of their own; leave it out")
+    if faults:
+        raise keys.Refused(*faults)
+    return (dynamics if part == "dynamics" else flow)(names[bool(part):], values)

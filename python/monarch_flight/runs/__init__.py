@@ -1,0 +1,1 @@
+"""Flights as they are asked for, started, watched and told."""

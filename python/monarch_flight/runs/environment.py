@@ -1,0 +1,35 @@
+"""The environment in which the nodes of a flight are started."""
+import os
+import subprocess
+
+from monarch_flight import places
+
+ROS_OWN = ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP")  # the person's, not the setup script's
+
+
+def sourced():
+    """That of this process, after the setup.bash of the build or the installation in use."""
+    script = places.prefix() / "setup.bash"
+    base = dict(os.environ, PATH="/usr/bin:" + os.environ.get("PATH", ""))
+    told = subprocess.run(["bash", "-c", 'source "$1" >/dev/null && env -0', "bash", str(script)], check=True,
+                          env=base, stdout=subprocess.PIPE).stdout
+    found = dict(item.split("=", 1) for item in os.fsdecode(told).split("\0") if "=" in item)
+    for name in ROS_OWN:
+        found.pop(name, None)
+        if os.environ.get(name):
+            found[name] = os.environ[name]
+    return found
+
+
+def of_flight(base):
+    """One thread for BLAS; lines that come in order; and a decimal point in every program, whatever the language: rviz
+    would take the person's for the numbers of the URDF."""
+    return dict(base, PWD=os.getcwd(), LC_ALL="C.UTF-8", PYTHONUNBUFFERED="1",
+                OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+
+
+def of_processes(base):
+    """For MPI on one machine: waiting processes give their core away, containers run as root, and after Ctrl-C the last
+    checkpoint is still made."""
+    return dict(base, OMPI_MCA_mpi_yield_when_idle="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                OMPI_MCA_odls_base_sigkill_timeout="10")

@@ -1,0 +1,83 @@
+"""Flies a request: over nodes on a master, or in one process."""
+import os
+import shlex
+import sys
+import tempfile
+
+from monarch_flight import places
+from monarch_flight.runs import environment, master, watched
+from monarch_flight.runs.ending import FAILED, STOPPED, Ending
+from monarch_flight.telling import say
+
+PYTHON = "/usr/bin/python3"  # which has the ROS modules
+
+
+def now():
+    """The time that files written from now on have at least [ns]."""
+    with tempfile.TemporaryFile() as file:
+        return os.fstat(file.fileno()).st_mtime_ns
+
+
+def in_process(request):
+    """Command and environment."""
+    command = [places.program("fly_in_process"), *request.words("program")]
+    base = environment.of_flight(os.environ)
+    if request.ranks > 1 and not request.plan:
+        command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(request.ranks), *command]
+        base = environment.of_processes(base)
+    return command, base
+
+
+class Nodes:
+    """The command that starts them, on the person's master or on one of its own."""
+
+    def __init__(self, request, base):
+        self.request, self.environment, self.port = request, base, 0
+        self.why_not = None
+        uri = base.get("ROS_MASTER_URI")
+        if uri and master.answers(uri):
+            self.why_not = master.busy(uri)
+        else:
+            if uri:
+                print(f"fly: ROS_MASTER_URI={uri} does not answer; starting an own master")
+            self.port = master.free_port()
+            self.environment = dict(base, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost")
+            self.environment.pop("ROS_IP", None)
+
+    @property
+    def command(self):
+        return [PYTHON, "-m", "monarch_flight.runs.launcher", "FACTS", str(self.port),
+                places.share() / "launch/flight.launch", *self.request.words("launch")]
+
+    def second_shell(self):
+        """One line to copy, for whoever leads the run from there."""
+        line = f"source {shlex.quote(str(places.prefix() / 'setup.bash'))}"
+        if places.source() and not all(os.access("/usr/bin/" + name, os.X_OK) for name in ("rostopic", "rosservice")):
+            line = f"{shlex.quote(str(places.source() / 'scripts/install'))} tools && {line}"
+        given = " ".join(f"{name}={shlex.quote(self.environment[name])}" for name in ("ROS_MASTER_URI", "ROS_HOSTNAME")
+                         if self.environment.get(name))
+        return f"{line}; export {given} PATH=/usr/bin:$PATH"
+
+
+def over_nodes(request):
+    """(command, environment), or None where the master is in use."""
+    nodes = Nodes(request, environment.of_flight(environment.sourced()))
+    if nodes.why_not:
+        say(nodes.why_not)
+        return None
+    if request.leader == "commands" or request.true("paused"):
+        print(f"fly: in a second shell, before rostopic, rosservice or rosrun:\n{nodes.second_shell()}")
+    return nodes.command, nodes.environment
+
+
+def fly(request, stop, command_name):
+    """Exit code."""
+    begin = now()
+    chosen = in_process(request) if request.in_process else over_nodes(request)
+    if chosen is None:
+        return FAILED
+    sys.stdout.flush()
+    code, facts = watched.run(*chosen, stop)
+    if request.plan:
+        return STOPPED if stop.heard else code
+    return Ending(request, begin, command_name).of(code, facts, stop.heard)

@@ -1,0 +1,123 @@
+"""Starts the nodes of a flight by the API of roslaunch, and tells facts of their ends, a line of JSON each.
+
+usage: python3 -m monarch_flight.runs.launcher FACTS PORT LAUNCH_FILE [KEY:=VALUE ...] FACTS is the number of an
+open file; PORT that of a master to start, 0 where one runs. Exit code: 0 the needed nodes ended well, 1 one of them
+did not, 2 the launch file or its arguments are refused. """
+import json
+import os
+import signal
+import sys
+
+
+class Interrupt:
+    """Ctrl-C: before there are processes the end; later roslaunch ends them, and this only notes it."""
+
+    def __init__(self):
+        self.heard = self.launching = False
+        signal.signal(signal.SIGINT, self)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])  # held back until now
+
+    def __call__(self, *_):
+        self.heard = True
+        if not self.launching:
+            os._exit(130)
+
+
+interrupt = Interrupt() if __name__ == "__main__" else None  # what follows takes its time
+
+import rospkg  # noqa: E402
+import roslaunch  # noqa: E402
+import roslaunch.core  # noqa: E402
+import roslaunch.parent  # noqa: E402
+import roslaunch.pmon  # noqa: E402
+import roslaunch.rlutil  # noqa: E402
+
+from monarch_flight.runs import node_program  # noqa: E402
+from monarch_flight.runs.master import ROLES  # noqa: E402
+
+
+class Facts(roslaunch.pmon.ProcessListener):
+    """Tells which process ended, and how; the end of a needed one ends them all."""
+
+    def __init__(self, number):
+        self.file, self.needed, self.pm, self.code = os.fdopen(number, "w", encoding="utf-8"), {"master"}, None, 0
+
+    def tell(self, **fact):
+        try:
+            print(json.dumps(fact), file=self.file, flush=True)
+        except OSError:
+            pass  # whoever listened is gone
+
+    def process_died(self, process_name, exit_code):
+        name = process_name if process_name in self.needed else process_name.rpartition("-")[0]
+        self.tell(ended=name, exit_code=exit_code, needed=name in self.needed)
+        if name in self.needed:
+            self.end(exit_code)
+
+    def end(self, exit_code):
+        self.code = 1 if exit_code else self.code
+        self.pm.shutdown()
+
+    def missing(self):
+        """Needed nodes that could not be started."""
+        alive, ended = self.pm.get_process_names_with_spawn_count()
+        seen = {name.rpartition("-")[0] for name, _ in alive + ended} | {"master"}
+        for name in sorted(self.needed - seen) if not self.pm.is_shutdown else ():
+            self.tell(ended=name, exit_code=None, needed=True)
+            self.end(1)
+
+
+class Launcher(roslaunch.parent.ROSLaunchParent):
+    """The parent of roslaunch; what its monitor says of ends is left to the facts, for it calls a good end a death."""
+
+    def __init__(self, facts, *arguments, **options):
+        super().__init__(*arguments, **options)
+        self.facts = facts
+
+    def _load_config(self):
+        super()._load_config()
+        # A flight ends with any of its own nodes.
+        self.facts.needed |= {(node.namespace + node.name).strip("/") for node in self.config.nodes
+                              if node.name in ROLES}
+
+    def _init_runner(self):
+        super()._init_runner()
+        roslaunch.pmon._init_signal_handlers()  # else with the first process
+        interrupt.launching = True
+
+    def _start_pm(self):
+        super()._start_pm()
+        self.facts.pm = self.pm
+        self.pm.add_process_listener(self.facts)
+        told = roslaunch.core.printerrlog
+        roslaunch.pmon.printlog_bold = lambda text: None
+        roslaunch.pmon.printerrlog = lambda text: told(text) if self.pm.is_shutdown else None  # who would not end
+
+
+def launch(facts, port, file, words):
+    """Exit code."""
+    run_id = roslaunch.rlutil.get_or_generate_uuid(None, False)
+    roslaunch.configure_logging(run_id)
+    launcher = Launcher(facts, run_id, [(file, words)], port=port or None, show_summary=False)
+    launcher.start()
+    facts.missing()
+    launcher.spin()
+    return facts.code
+
+
+def main(words):
+    facts, port, file, *keys = words
+    facts = Facts(int(facts))
+    if not node_program.good(keys):
+        return 2
+    try:
+        return launch(facts, int(port), file, keys)
+    except (roslaunch.core.RLException, ValueError, rospkg.ResourceNotFound) as error:
+        if interrupt.heard:
+            return 130
+        print(f"fly: {str(error).splitlines()[0]}", file=sys.stderr)
+        return 2 if facts.pm is None else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

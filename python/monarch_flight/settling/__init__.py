@@ -1,0 +1,1 @@
+"""Flights that are led, and their periodic flight."""

@@ -1,0 +1,1 @@
+"""Long trials of speed, endurance and faults, and comparisons."""

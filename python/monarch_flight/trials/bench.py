@@ -1,0 +1,224 @@
+"""Measures speed, stage by stage (monarch bench, docs/performance.md)."""
+import json
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+
+from monarch_flight import places
+
+ROOT = places.source()
+BUILD = os.environ.get("MONARCH_BENCH_BUILD", os.path.join(ROOT, "build", "bench"))
+SIZES = (0.2e6, 0.65e6, 2.5e6, 5e6)
+ENVIRONMENT = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
+                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1")
+
+
+def fail(text):
+    sys.exit("bench: " + text)
+
+
+def run(command, **options):
+    done = subprocess.run(command, env=ENVIRONMENT, stdout=subprocess.PIPE, text=True, **options)
+    if done.returncode != 0:
+        fail("failed (exit code %d): %s" % (done.returncode, " ".join(map(str, command))))
+    return done.stdout
+
+
+def program(name):
+    return os.path.join(BUILD, "bench_" + name)
+
+
+class Table:
+    """The measured values; `bar` is the bound that a value must meet, None: for information. Each stage ends with `save`:
+    rows of the same name are renewed in bench.json, others stay."""
+
+    def __init__(self, path):
+        self.path, self.rows = path, []
+
+    def add(self, name, value, unit, bar=None, at_least=False):
+        good = None if bar is None else bool(value >= bar if at_least else value <= bar)
+        self.rows.append({"name": name, "value": value, "unit": unit, "bar": bar, "pass": good})
+        bound = "" if bar is None else ("%s %g" % (">=" if at_least else "<=", bar))
+        print("%-42s %12.5g %-12s %-10s %s" % (name, value, unit, bound, {None: "", True: "ok", False: "MISSED"}[good]),
+              flush=True)
+
+    def save(self):
+        kept = []
+        if os.path.isfile(self.path):
+            with open(self.path) as f:
+                kept = json.load(f)
+        new = {r["name"] for r in self.rows}
+        with open(self.path + ".active", "w") as f:
+            json.dump([r for r in kept if r["name"] not in new] + self.rows, f, indent=1)
+        os.replace(self.path + ".active", self.path)
+
+
+def build(targets):
+    run(["cmake", "-S", ROOT, "-B", BUILD, "-DMONARCH_ROS=OFF", "-DMONARCH_TESTS=OFF", "-DMONARCH_BENCH=ON"])
+    with open(os.path.join(BUILD, "build.log"), "w") as log:
+        done = subprocess.run(["make", "-C", BUILD, "-j2"] + ["bench_" + t for t in targets], stdout=log, stderr=log)
+    if done.returncode != 0:
+        fail("the build failed, see " + log.name)
+
+
+def whole_steps(table, repeats):
+    full = {}
+    for cells in SIZES:
+        r = json.loads(run([program("flow"), str(cells), str(repeats)]))
+        at = "at_%gM" % (cells / 1e6)
+        bar = 100 if cells in (0.65e6, 2.5e6) else None
+        full[cells] = r["full_ns"]["best"]
+        table.add("ns_per_cell_full_solve_" + at, r["full_ns"]["best"], "ns", bar)
+        table.add("ns_per_cell_full_solve_median_" + at, r["full_ns"]["median"], "ns")
+        table.add("ns_per_cell_repeated_evaluate_" + at, r["repeated_ns"]["best"], "ns")
+        table.add("ns_per_cell_commit_" + at, r["commit_ns"]["best"], "ns")
+        table.add("operator_by_full_solve_" + at, r["operator_s"] / (1e-9 * r["full_ns"]["best"] * r["cells"]), "", 0.01)
+        for name, ns in r["kernel_ns"].items():
+            table.add("profile_%s_%s" % (name, at), ns, "ns/cell")
+        table.add("courant_" + at, r["courant"], "")
+        table.add("setup_" + at, r["setup_s"], "s", {0.65e6: 10, 5e6: 60}.get(cells))
+        table.add("memory_per_cell_" + at, r["bytes_per_cell"], "bytes")
+        table.add("memory_by_plan_" + at, r["bytes_per_cell"] / r["planned_bytes_per_cell"], "")
+        table.add("setup_by_plan_" + at, r["setup_s"] / r["planned_setup_s"], "")
+    table.add("ns_per_cell_full_solve", full[0.65e6], "ns", 100)
+    table.add("cost_per_cell_largest_by_smallest", max(full.values()) / min(full.values()), "", 1.4)
+
+
+def kernels(table, cells):
+    at = "at_%gM" % (cells / 1e6)
+    out = json.loads(run(["env", "BENCH_CELLS=%g" % cells, program("kernels"), "--benchmark_format=json",
+                          "--benchmark_min_time=0.3"], stderr=subprocess.DEVNULL))
+    total = 0
+    for b in out["benchmarks"]:
+        if b["name"] == "triad":
+            table.add("triad_" + at, b["GB/s"], "GB/s")
+        elif b["name"] == "dgemm":
+            table.add("dgemm_" + at, b["GFLOP/s"], "GFLOP/s")
+        else:
+            ns = b["ns_per_cell"]
+            total += ns * (2 if b["name"] == "rotation" else 1)
+            table.add("kernel_%s_%s" % (b["name"], at), ns, "ns/cell")
+            if b["GB/s"]:
+                table.add("kernel_%s_bandwidth_%s" % (b["name"], at), b["GB/s"], "GB/s")
+                table.add("kernel_%s_rate_%s" % (b["name"], at), b["GFLOP/s"], "GFLOP/s")
+    table.add("kernels_sum_" + at, total, "ns/cell")
+
+
+def ranks(table, repeats):
+    one, two = [], []
+    command = [program("flow"), "2.5e6", str(repeats)]
+    for _ in range(3):  # in turns
+        one.append(json.loads(run(command)))
+        two.append(json.loads(run(["mpirun", "--oversubscribe", "--bind-to", "none", "-np", "2"] + command)))
+    best = lambda results: min(r["full_ns"]["wall_best"] for r in results)
+    table.add("ranks_2_speedup", best(one) / best(two), "", 1.7, at_least=True)
+    planes = two[0]["doubles_sent_per_step"] / (two[0]["size"][0] * two[0]["size"][1])
+    table.add("ranks_2_doubles_sent_per_step", two[0]["doubles_sent_per_step"], "")
+    table.add("ranks_2_planes_sent_per_step", planes, "")
+    table.add("ranks_load_average", os.getloadavg()[0], "")
+
+
+def coupling(table, out):
+    """A flight over topics: quasi-steady air for the chain of a sub-iteration alone, the standard grid for its share."""
+    from monarch_flight.trials.exchange_times import step_times
+    flights = {"chain": ["fluid:=quasi_steady", "flaps:=1", "steps_per_flap:=500"],
+               "standard": ["grid:=standard", "flaps:=0.08", "steps_per_flap:=500"]}
+    times = {}
+    for name, keys in flights.items():
+        folder = os.path.join(out, "coupling_" + name)
+        shutil.rmtree(folder, ignore_errors=True)
+        run([*places.monarch(), "fly", "case:=climb_printed", "out:=" + folder, "rviz:=false"] + keys)
+        times[name] = step_times(folder)
+    chains = [t.exchange / (t.sub_iterations + 1) for t in times["chain"]]  # and the COMMIT's chain
+    table.add("sub_iteration_chain_median", 1e3 * statistics.median(chains), "ms", 0.6)
+    table.add("sub_iteration_chain_p95", 1e3 * sorted(chains)[int(0.95 * len(chains))], "ms")
+    shares = [(t.exchange + t.coupling) / t.total for t in times["standard"]]
+    table.add("exchange_and_coordination_share_at_standard", statistics.median(shares), "", 0.03)
+    table.add("coupling_load_average", os.getloadavg()[0], "")
+
+
+def hypre(table, sizes):
+    for cells in sizes:
+        r = json.loads(run([program("hypre"), str(cells)]).splitlines()[-1])
+        at = "at_%gM" % (cells / 1e6)
+        if r["difference"] > 1e-5:
+            fail("hypre and the direct solver disagree by %g" % r["difference"])
+        ratio = r["hypre_s"] / r["direct_s"]
+        if cells == 0.65e6:
+            table.add("hypre_ratio", ratio, "", 50, at_least=True)
+        table.add("hypre_ratio_" + at, ratio, "", 50, at_least=True)
+        table.add("hypre_pcg_" + at, r["hypre_s"], "s")
+        table.add("hypre_iterations_" + at, r["hypre_iterations"], "")
+        table.add("pressure_solve_" + at, r["direct_s"], "s")
+
+
+def foam(folder, command):
+    text = ". /usr/share/openfoam/etc/bashrc >/dev/null 2>&1; %s >log.run 2>&1" % command
+    if subprocess.run(["bash", "-c", text], cwd=folder, env=ENVIRONMENT).returncode != 0:
+        fail("OpenFOAM failed, see %s/log.run" % folder)
+    with open(os.path.join(folder, "log.run")) as log:
+        return log.read()
+
+
+def set_entry(folder, key, value):
+    path = os.path.join(folder, "system", "controlDict")
+    with open(path) as f:
+        text = f.read()
+    with open(path, "w") as f:
+        f.write(re.sub(r"(?m)^%s .*;$" % key, "%s %.12g;" % (key, value), text))
+
+
+def openfoam(table, out, cells, rounds, steps):
+    """Rounds of some steps of OpenFOAM and of ours, in turns."""
+    case = os.path.join(out, "openfoam")
+    shutil.rmtree(case, ignore_errors=True)
+    shutil.copytree(os.path.join(ROOT, "bench", "openfoam"), case)
+    os.makedirs(os.path.join(case, "constant", "polyMesh"))
+    count, dt = run([program("openfoam_case"), str(cells), case]).split()
+    dt = float(dt)
+    set_entry(case, "deltaT", dt)
+    set_entry(case, "writeInterval", steps)
+    theirs, ours = [], []
+    for n in range(rounds):
+        set_entry(case, "endTime", (n + 1) * steps * dt)
+        log = foam(case, "pimpleFoam")
+        times = [float(t) for t in re.findall(r"ExecutionTime = (\S+) s", log)]
+        theirs += [b - a for a, b in zip(times, times[1:])]  # the first of a round holds the start
+        r = json.loads(run([program("flow"), str(cells), "10"]))
+        ours.append(r["full_ns"]["median"] * r["cells"] * 1e-9)
+        if r["cells"] != int(count):
+            fail("the two grids differ: %s and %d cells" % (count, r["cells"]))
+    table.add("openfoam_cpu_ratio", statistics.median(theirs) / statistics.median(ours), "", 60, at_least=True)
+    table.add("openfoam_cpu_per_step", statistics.median(theirs), "s")
+    table.add("monarch_cpu_per_step", statistics.median(ours), "s")
+    table.add("openfoam_cells", int(count), "")
+
+
+PROGRAMS = {"steps": ["flow"], "kernels": ["kernels"], "ranks": ["flow"], "hypre": ["hypre"],
+            "openfoam": ["flow", "openfoam_case"], "coupling": []}
+
+
+def measure(stages, out, given):
+    """Exit code: whether every bar is met. `given`: repeats, rounds, cells, hypre_cells."""
+    os.makedirs(out, exist_ok=True)
+    targets = sorted({program for stage in stages for program in PROGRAMS[stage]})
+    if targets:
+        build(targets)
+    table = Table(os.path.join(out, "bench.json"))
+    table.add("load_average", os.getloadavg()[0], "")
+    work = {"steps": lambda: whole_steps(table, given.repeats),
+            "kernels": lambda: [kernels(table, cells) for cells in (0.65e6, 2.5e6)],
+            "ranks": lambda: ranks(table, given.repeats),
+            "coupling": lambda: coupling(table, out),
+            "hypre": lambda: hypre(table, given.hypre_cells or [0.65e6]),
+            "openfoam": lambda: openfoam(table, out, given.cells, given.rounds, 4)}
+    for stage, measured in work.items():
+        if stage in stages:
+            measured()
+            table.save()
+    missed = [r["name"] for r in table.rows if r["pass"] is False]
+    print("bench: %s; values in %s/bench.json" % ("missed: " + ", ".join(missed) if missed else "all bars met", out))
+    return 1 if missed else 0

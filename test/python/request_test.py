@@ -1,0 +1,97 @@
+"""What monarch fly makes of its keys, and which of them it refuses together."""
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+from monarch_flight import keys  # noqa: E402
+from monarch_flight.runs.request import request  # noqa: E402
+
+DARK, BRIGHT = {}, {"DISPLAY": ":0"}
+
+
+class Requests(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="it's a folder ")
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def run_folder(self, case="name: x\n"):
+        folder = self.folder / "run"
+        folder.mkdir()
+        (folder / "case.yaml").write_text(case, encoding="utf-8")
+        (folder / "flight.csv").write_text("t\n", encoding="utf-8")
+        return folder
+
+    def faults(self, *words, environment=None):
+        with self.assertRaises(keys.Refused) as refused:
+            request(words, environment or DARK)
+        return "\n".join(refused.exception.faults)
+
+    def test_nothing_given(self):
+        wanted = request([], DARK)
+        found = (wanted.values["case"], wanted.values["rviz"], wanted.leader)
+        self.assertEqual(found, ("climb_controlled", "false", "controller"))
+        self.assertRegex(str(wanted.folder), r"/flights/climb_controlled-\d{8}-\d{6}$")
+        self.assertEqual(request([], BRIGHT).values["rviz"], "true")
+
+    def test_words_for_the_launch_file_and_the_program(self):
+        wanted = request(["flaps:=2", f"out:={self.folder / 'new'}", "ranks:=2", "in_process:=true"], BRIGHT)
+        out = f"out:={self.folder}/new"
+        self.assertEqual(wanted.words("program"), ["case:=climb_controlled", "flaps:=2", out, "ranks:=2"])
+        self.assertIn("rviz:=false", wanted.words("launch"))
+
+    def test_a_case_of_ones_own(self):
+        case = self.folder / "mine.yaml"
+        case.write_text("wings: independent\nguidance: {type: commands}\n", encoding="utf-8")
+        wanted = request([f"case:={os.path.relpath(case)}"], DARK)
+        found = (wanted.values["case"], wanted.values["wings"], wanted.leader)
+        self.assertEqual(found, (str(case), "independent", "commands"))
+        self.assertIn("is one fluid for mirrored wings", self.faults(f"case:={case}", "fluid_node:=a.py"))
+        case.write_text("[broken", encoding="utf-8")
+        self.assertEqual(request([f"case:={case}"], DARK).leader, "motion")  # whoever flies it says what is wrong
+
+    def test_resumed(self):
+        folder = self.run_folder()
+        wanted = request([f"resume:={folder}"], DARK)
+        found = (wanted.folder, wanted.values["case"], "out" in wanted.values)
+        self.assertEqual(found, (folder, f"{folder}/case.yaml", False))
+        self.assertIn("goes on in its own folder", self.faults(f"resume:={folder}", "out:=x"))
+        self.assertEqual(self.faults(f"resume:={self.folder}"),
+                         f"resume:={self.folder}: not the folder of a run (it has no case.yaml)")
+
+    def test_replayed(self):
+        folder = self.run_folder()
+        wanted = request([f"replay:={folder}"], DARK)
+        found = (wanted.values["guidance"], wanted.values["guidance_file"])
+        self.assertEqual(found, ("replay", f"{folder}/flight.csv"))
+        self.assertIn("/flights/run-", str(wanted.folder))
+        text = self.faults(f"replay:={folder}", "case:=climb", "guidance:=motion")
+        self.assertIn("give only one of them", text)
+        self.assertIn("a replay is guidance:=replay", text)
+        self.assertIn("name the folder of the recorded flight by replay:=", self.faults("guidance:=replay"))
+
+    def test_what_needs_nodes(self):
+        words = ("in_process:=true", "rviz:=true", "fluid_node:=a", "guidance_node:=b", "paused:=true")
+        text = self.faults(*words, environment=BRIGHT)
+        self.assertEqual(text.count("needs the nodes, so in_process:=false"), 4)
+        self.assertIn("guidance:=commands: needs the nodes", self.faults("plan:=true", "guidance:=commands"))
+        self.assertIn("there is no display", self.faults("rviz:=true"))
+
+    def test_leaders(self):
+        self.assertIn("name its program by guidance_node:=", self.faults("guidance:=node"))
+        self.assertIn("needs guidance:=node, not motion", self.faults("guidance:=motion", "guidance_node:=a.py"))
+        self.assertEqual(request(["guidance_node:=a.py"], DARK).leader, "node")
+
+    def test_a_folder_in_use_and_a_misspelt_case(self):
+        (self.folder / "x").write_text("", encoding="utf-8")
+        text = self.faults(f"out:={self.folder}", "case:=climb_controled", "flaps:=0")
+        for words in ("holds something already", "did you mean 'climb_controlled'?", "flaps:=0: must be a number > 0"):
+            self.assertIn(words, text)
+
+
+if __name__ == "__main__":
+    unittest.main()
