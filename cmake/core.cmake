@@ -21,6 +21,11 @@ function(forbid_ros layer)
   endforeach()
 endfunction()
 
+# One alignment of matrices for this package and all that link with it, whatever their processor
+# (math/eigen.h); their own copies of inlined code do not stand in for this package's.
+add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+add_link_options(-Wl,-Bsymbolic-functions)
+
 function(core_layer name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/${name}/*.cpp)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/monarch_flight/${name}/*.h src/${name}/*.h)

@@ -7,7 +7,7 @@ if(NOT DEFINED Python3_EXECUTABLE AND DEFINED PYTHON_EXECUTABLE)
   set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE} CACHE FILEPATH "The same, for ament's modules")
 endif()
 
-set(ROS_PACKAGES actionlib actionlib_msgs diagnostic_msgs diagnostic_updater geometry_msgs nav_msgs rosbag roscpp
+set(ROS_PACKAGES actionlib actionlib_msgs diagnostic_msgs diagnostic_updater geometry_msgs nav_msgs pluginlib rosbag roscpp
   rosgraph_msgs roslz4 sensor_msgs std_msgs std_srvs tf2_msgs topic_tools visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS message_generation ${ROS_PACKAGES})
 
@@ -27,7 +27,12 @@ catkin_package(
   INCLUDE_DIRS include
   LIBRARIES monarch_ros_io ${CORE_LAYERS}
   CATKIN_DEPENDS message_runtime ${ROS_PACKAGES}
+  CFG_EXTRAS monarch_flight-alignment.cmake
   DEPENDS EIGEN3)
+
+# Where catkin looks for them.
+set_target_properties(${CORE_LAYERS} PROPERTIES LIBRARY_OUTPUT_DIRECTORY
+  ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_LIB_DESTINATION})
 
 # Headers of ROS are the system's: -Wpedantic does not apply to them. That the core does not include
 # them is checked in core.cmake.
@@ -39,7 +44,7 @@ add_library(monarch_ros_io SHARED ${ros_sources})
 target_include_directories(monarch_ros_io PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 #catkin_lint: ignore_once external_directory
 target_include_directories(monarch_ros_io SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/include)
-target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES} PRIVATE OpenSSL::Crypto)
+target_link_libraries(monarch_ros_io PUBLIC ${CORE_LAYERS} ${catkin_LIBRARIES} PRIVATE OpenSSL::Crypto ${CMAKE_DL_LIBS})
 add_dependencies(monarch_ros_io monarch_flight_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 target_compile_definitions(monarch_ros_io PRIVATE
   MONARCH_SOURCE_SHARE="${CMAKE_CURRENT_SOURCE_DIR}")
@@ -69,7 +74,6 @@ install(TARGETS monarch_ros_io LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINAT
 install(TARGETS ${NODE_TARGETS} trim inverse_dynamics RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(PROGRAMS examples/drag_fluid.py examples/climb_guidance.py examples/joy_guidance.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(FILES examples/solver_node.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/monarch_flight/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
   FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY config launch rviz urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -10,7 +10,7 @@ of climb_trimmed, identified from flights. With an abdomen 9 % lighter or heavie
 import struct
 import sys
 
-from solver_node import SolverNode
+from monarch_flight.solver_node import SolverNode
 
 # Of vx and vz (NED) [1/(m/s)], pitch [1/rad], integrals of vx and vz over flaps [1/(m/s)].
 GAINS = {"amplitude": (0.40, 0.13, 0.42, 0.030, -0.032),

@@ -12,8 +12,7 @@ import sys
 import numpy as np
 from geometry_msgs.msg import Vector3, Wrench
 from monarch_flight.msg import LoadDerivatives, ParticipantReply
-
-from solver_node import SolverNode
+from monarch_flight.solver_node import SolverNode
 
 NORMAL_FORCE = 1.98
 STRIPS = 20

@@ -5,9 +5,8 @@ import csv
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "examples"))
-from monarch_flight.msg import JointMotion, PrescribedLevel, WingJoints  # noqa: E402
-from solver_node import SolverNode  # noqa: E402
+from monarch_flight.msg import JointMotion, PrescribedLevel, WingJoints
+from monarch_flight.solver_node import SolverNode
 
 
 class Recorded:

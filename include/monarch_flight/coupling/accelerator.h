@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Dense>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -7,6 +6,7 @@
 
 #include "monarch_flight/coupling/settings.h"
 #include "monarch_flight/coupling/step_model.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

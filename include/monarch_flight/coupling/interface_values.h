@@ -1,7 +1,6 @@
 #pragma once
-#include <Eigen/Dense>
-
 #include "monarch_flight/coupling/participant.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

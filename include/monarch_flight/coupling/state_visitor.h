@@ -1,11 +1,11 @@
 #pragma once
-#include <Eigen/Dense>
 #include <cstddef>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "monarch_flight/insect/prescribed_motion.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

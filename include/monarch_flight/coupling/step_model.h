@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Dense>
 #include <array>
 #include <optional>
 
@@ -7,6 +6,7 @@
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/flight/flight_solver.h"
 #include "monarch_flight/insect/prescribed_motion.h"
+#include "monarch_flight/math/eigen.h"
 #include "monarch_flight/wing/wing_pitch_solver.h"
 
 namespace monarch_flight {

@@ -1,9 +1,9 @@
 #pragma once
-#include <Eigen/Dense>
 #include <array>
 
 #include "monarch_flight/insect/insect.h"
 #include "monarch_flight/insect/state.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

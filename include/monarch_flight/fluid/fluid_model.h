@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Dense>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,6 +6,7 @@
 #include "monarch_flight/fluid/flow_field.h"
 #include "monarch_flight/fluid/kernel_times.h"
 #include "monarch_flight/insect/state.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

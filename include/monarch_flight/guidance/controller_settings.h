@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Dense>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,6 +7,7 @@
 
 #include "monarch_flight/guidance/feedback_law.h"
 #include "monarch_flight/insect/wingbeat.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

@@ -1,11 +1,11 @@
 #pragma once
-#include <Eigen/Dense>
 #include <array>
 #include <string>
 #include <vector>
 
 #include "monarch_flight/coupling/state_visitor.h"
 #include "monarch_flight/insect/wingbeat.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

@@ -1,10 +1,10 @@
 #pragma once
-#include <Eigen/Dense>
 #include <memory>
 #include <vector>
 
 #include "monarch_flight/insect/numeric_table.h"
 #include "monarch_flight/insect/wind_model.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

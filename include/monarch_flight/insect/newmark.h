@@ -1,10 +1,10 @@
 #pragma once
-#include <Eigen/Dense>
 #include <array>
 #include <cstddef>
 #include <initializer_list>
 
 #include "monarch_flight/insect/state.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

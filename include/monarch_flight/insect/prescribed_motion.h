@@ -1,8 +1,7 @@
 #pragma once
-#include <Eigen/Dense>
-
 #include "monarch_flight/insect/insect.h"
 #include "monarch_flight/insect/state.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

@@ -1,9 +1,9 @@
 #pragma once
-#include <Eigen/Dense>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "monarch_flight/math/eigen.h"
 #include "monarch_flight/math/rotation.h"
 
 namespace monarch_flight {

@@ -1,9 +1,9 @@
 #pragma once
-#include <Eigen/Dense>
 #include <memory>
 #include <vector>
 
 #include "monarch_flight/insect/prescribed_motion.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <Eigen/Dense>
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

@@ -1,8 +1,8 @@
 #pragma once
-#include <Eigen/Dense>
 #include <string>
 
 #include "monarch_flight/coupling/settings.h"
+#include "monarch_flight/math/eigen.h"
 #include "monarch_flight/run/output_file.h"
 
 namespace monarch_flight {

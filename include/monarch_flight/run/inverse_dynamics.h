@@ -1,10 +1,10 @@
 #pragma once
-#include <Eigen/Dense>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "monarch_flight/insect/numeric_table.h"
+#include "monarch_flight/math/eigen.h"
 #include "monarch_flight/run/case.h"
 
 namespace monarch_flight {

@@ -1,10 +1,10 @@
 #pragma once
-#include <Eigen/Dense>
 #include <array>
 #include <string>
 #include <vector>
 
 #include "monarch_flight/insect/fourier_motion.h"
+#include "monarch_flight/math/eigen.h"
 #include "monarch_flight/run/case.h"
 #include "monarch_flight/trim/flap_state.h"
 

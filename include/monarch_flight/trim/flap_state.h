@@ -1,9 +1,8 @@
 #pragma once
-#include <Eigen/Dense>
-
 #include "monarch_flight/insect/newmark.h"
 #include "monarch_flight/insect/start_motion.h"
 #include "monarch_flight/insect/state.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

@@ -1,8 +1,9 @@
 #pragma once
-#include <Eigen/Dense>
 #include <functional>
 #include <optional>
 #include <string>
+
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

@@ -1,7 +1,8 @@
 #pragma once
-#include <Eigen/Dense>
 #include <complex>
 #include <vector>
+
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

@@ -1,11 +1,11 @@
 #pragma once
-#include <Eigen/Dense>
 #include <array>
 #include <string>
 #include <vector>
 
 #include "monarch_flight/coupling/guidance.h"
 #include "monarch_flight/guidance/wingbeat_guidance.h"
+#include "monarch_flight/math/eigen.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/trim/flap_map.h"
 

@@ -1,10 +1,10 @@
 #pragma once
-#include <Eigen/Dense>
 #include <array>
 #include <string>
 #include <vector>
 
 #include "monarch_flight/insect/planform.h"
+#include "monarch_flight/math/eigen.h"
 
 namespace monarch_flight {
 

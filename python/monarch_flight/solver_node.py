@@ -1,6 +1,9 @@
 """The solver's end of the lockstep protocol (docs/protocol.md) in Python: a node of one's own in
 place of the fluid, flight or wing node, or one that leads the wingbeat.
 
+  from monarch_flight.solver_node import SolverNode
+  sys.exit(SolverNode("fluid", MyFluid()).serve())
+
 A solver is an object with
   start(case, request)         the resolved case (a dict) and the START request; returns a reply
   iterate(request)             returns a reply: a function of the committed state and the request
@@ -14,6 +17,9 @@ request.t. It is an object with
 and one of
   command(request)             returns a WingbeatCommand, a dict of its fields, or None: as before
   prescribe(request)           returns the PrescribedLevel of level n+1
+
+A fluid knows right wings alone. Started as node `fluid_left` (wings:=independent) it is told the left
+wing as its mirror image, as if that were a right wing; insect/wing of the case is then that wing.
 
 Both may have save() -> bytes and restore(bytes): what one step leaves to the next, for checkpoints.
 Guidance may have commit(request), and `lost`, true once it has given up.
@@ -35,6 +41,7 @@ os.environ.setdefault("ROS_NAMESPACE", "/monarch_flight")
 
 import rospy  # noqa: E402  (reads address and namespace when it is imported)
 import yaml
+from monarch_flight.mirror import FluidOfWing
 from monarch_flight.msg import (CouplingKey, Hello, ParticipantReply, ParticipantRequest,
                                 WingbeatCommand)
 from std_msgs.msg import String
@@ -118,7 +125,7 @@ class GuidanceSolver:
 
 
 class SolverNode:
-    """Serves one run, then ends."""
+    """Serves one run, then ends. `role`: fluid, flight, wing or guidance."""
 
     def __init__(self, role, solver):
         self.role = role
@@ -128,7 +135,11 @@ class SolverNode:
         self.case_known, self.over = threading.Event(), threading.Event()
         self.refused = 0
         rospy.init_node(role, disable_signals=True)
-        self.place = rospy.resolve_name(role) + "/"
+        if role == "fluid":  # which wing's, the node's name says
+            left = rospy.get_name().endswith("/fluid_left")
+            self.role = "fluid_left" if left else role
+            self.solver = FluidOfWing(solver, left)
+        self.place = rospy.resolve_name(self.role) + "/"
         self.token = token_of_run()
         self.checkpoints = None
         self.replies = rospy.Publisher(self.place + "reply", ParticipantReply, queue_size=8,
