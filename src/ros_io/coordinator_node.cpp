@@ -10,6 +10,7 @@
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
 #include "monarch_flight/run/federation.h"
+#include "monarch_flight/run/plugins.h"
 
 namespace monarch_flight {
 namespace {
@@ -45,6 +46,7 @@ CoordinatorNode::CoordinatorNode(const StopFlag& stop)
       case_(loadCase(parameters_)),
       node_(names_.space()),
       token_(names_) {
+  requireGuidancePlugin(case_);
   run_.id = randomRunId();
   run_.limits = limitsFor(case_.watchdog_s);
   run_.stop = &stop_;
@@ -76,12 +78,12 @@ int CoordinatorNode::fly() {
   topics_ = std::make_unique<RosOutput>(node_);
   const std::string out = outputDirectory(parameters_, case_);
   run_.checkpoints = checkpointFolder(out);
+  const auto guidance = makeGuidance(run_.checkpoints);
   FlightRun run(case_, out, !parameters_.resume.empty(), parameters_.ranks, names_,
                 {topics_.get()});
   FlightControl control(
       node_, case_, parameters_.paused, [this] { keepAlive(); }, stop_);
   run.addSink(control);
-  const auto guidance = makeGuidance(run_.checkpoints);
   Participants all{};
   for (const auto& node : nodes_) all[static_cast<std::size_t>(node->role())] = node.get();
   all[static_cast<std::size_t>(Role::kGuidance)] = guidance.get();

@@ -229,7 +229,9 @@ void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& sta
     const char* topic = side == Side::kLeft ? topics::kLeftPressure : topics::kRightPressure;
     out.push_back({topic, stamp, pressureCloud(step.surface[side], side, stamp), true});
   }
-  const bool flow = case_.fluid == FluidKind::kNavierStokes;
+  bool flow = case_.fluid == FluidKind::kNavierStokes;
+  for (Side side : case_.sides())  // a plugin may have some
+    flow = flow || (case_.fluid == FluidKind::kPlugin && !step.vortices[side].empty());
   if (flow && step.step > 0 && due(step.step, case_.output.vortices_every)) {
     out.push_back(
         {topics::kVortices, stamp, vortexCloud(step.vortices, case_.insect, step.angles, stamp)});

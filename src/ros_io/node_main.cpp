@@ -15,8 +15,10 @@
 #include "monarch_flight/ros_io/loopback.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/participant_node.h"
+#include "monarch_flight/ros_io/pluginlib_source.h"
 #include "monarch_flight/ros_io/pressure_view.h"
 #include "monarch_flight/run/federation.h"
+#include "monarch_flight/run/plugins.h"
 #include "monarch_flight/run/remarks.h"
 #include "monarch_flight/run/sha256.h"
 #include "monarch_flight/viz/urdf.h"
@@ -33,6 +35,7 @@ void requestStop(int) { stop_requested = true; }
 
 // Runs `body`; what it throws becomes a message and an exit code.
 int guarded(const std::string& name, const std::function<int()>& body) {
+  usePluginlib();
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
   std::signal(SIGHUP, requestStop);  // the terminal was closed
@@ -140,7 +143,9 @@ int inProcessMain(int argc, char** argv) {
     const Case c = loadCase(parameters);
     if (parameters.plan) {
       const std::string plan = plannedRun(parameters, c, false);
-      std::cout << (plan.empty() ? "quasi-steady air: no grid to plan\n" : plan);
+      std::cout << "air: " << fluidName(c) << "; wingbeat led by: " << guidanceName(c.guidance)
+                << '\n'
+                << (plan.empty() ? "this air has no grid to plan\n" : plan);
       for (const std::string& remark : runRemarks(c, c.time.steps))
         std::cout << remark << std::endl;
       return static_cast<int>(kExitComplete);
@@ -150,6 +155,7 @@ int inProcessMain(int argc, char** argv) {
                        ": a run in one process has no nodes and no topics that could lead it; choose "
                        "another type, or fly with nodes (in_process:=false)");
     requireProcesses(parameters, c);
+    requirePlugins(c);
     if (parameters.ranks > 1 && !c.mirrored)
       throw InputError(
           "ranks = " + std::to_string(parameters.ranks) +

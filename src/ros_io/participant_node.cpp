@@ -9,6 +9,7 @@
 #include "monarch_flight/ros_io/token_file.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/kept_participant.h"
+#include "monarch_flight/run/plugins.h"
 
 namespace monarch_flight {
 namespace {
@@ -17,7 +18,10 @@ Case readCase(Role role, const RunNames& names) {
   XmlRpc::XmlRpcValue values = parametersOfRun(names);
   const RunParameters parameters = runParameters(values, names.topic(""));
   Case c = loadCase(parameters);
-  if (role == Role::kFluid || role == Role::kFluidLeft) requireProcesses(parameters, c);
+  if (role == Role::kFluid || role == Role::kFluidLeft) {
+    requireProcesses(parameters, c);
+    requireFluidPlugin(c);
+  }
   if (role == Role::kFluidLeft && c.mirrored)
     throw InputError(std::string(roleName(role)) +
                      ": this case has mirrored wings, one fluid is enough; leave this node out, or "
@@ -38,19 +42,27 @@ void delayForTest() {
   ros::WallDuration(1e-3 * milliseconds(random)).sleep();
 }
 
+Reply refusal(const Request& request, const std::string& why) {
+  Reply reply;
+  reply.key = request.key;
+  if (request.key.phase != Phase::kAbort) reply.error = why;
+  return reply;
+}
+
 }  // namespace
 
 Reply ParticipantOnStart::exchange(const Request& request) {
   delayForTest();
   if (request.key.phase == Phase::kStart) {
     participant_.reset();  // a reset never holds two flows
-    participant_ = make_(request.checkpoints);
+    try {
+      participant_ = make_(request.checkpoints);
+    } catch (const std::exception& e) {
+      return refusal(request, e.what());
+    }
   }
   if (participant_) return participant_->exchange(request);
-  Reply reply;
-  reply.key = request.key;
-  if (request.key.phase != Phase::kAbort) reply.error = "no START before the first request";
-  return reply;
+  return refusal(request, "no START before the first request");
 }
 
 ParticipantNode::ParticipantNode(Role role, const StopFlag& stop)

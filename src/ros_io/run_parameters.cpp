@@ -1,6 +1,7 @@
 #include "monarch_flight/ros_io/run_parameters.h"
 
 #include <XmlRpcValue.h>
+#include <dlfcn.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -115,6 +116,13 @@ std::string text(XmlRpc::XmlRpcValue& value) {
   }
 }
 
+// Of this library.
+std::string libraryFile() {
+  Dl_info place;
+  static const int here = 0;
+  return dladdr(&here, &place) != 0 ? fs::absolute(place.dli_fname).string() : "";
+}
+
 }  // namespace
 
 RunParameters runParameters(const Values& values, const std::string& where) {
@@ -174,8 +182,8 @@ Case loadCase(const RunParameters& parameters) {
 
 void requireProcesses(const RunParameters& parameters, const Case& c) {
   const std::string ranks = "ranks = " + std::to_string(parameters.ranks) + ": ";
-  if (parameters.ranks > 1 && c.fluid == FluidKind::kQuasiSteady) {
-    throw InputError(ranks + "quasi_steady runs on one process; use ranks:=1");
+  if (parameters.ranks > 1 && c.fluid != FluidKind::kNavierStokes) {
+    throw InputError(ranks + fluidName(c) + " runs on one process; use ranks:=1");
   }
   if (parameters.ranks != flowProcesses()) {
     throw InputError(ranks + "the fluid was started on " + std::to_string(flowProcesses()) +
@@ -207,10 +215,9 @@ std::string outputDirectory(const RunParameters& parameters, const Case& c) {
 
 std::string configDirectory() {
   std::error_code none;
-  const fs::path executable = fs::read_symlink("/proc/self/exe", none);
-  // <prefix>/lib/monarch_flight/<executable> and <prefix>/share/monarch_flight/config
+  // <prefix>/lib/<this library> and <prefix>/share/monarch_flight/config, whoever links with it.
   const fs::path installed =
-      executable.parent_path().parent_path().parent_path() / "share/monarch_flight/config";
+      fs::path(libraryFile()).parent_path().parent_path() / "share/monarch_flight/config";
   if (fs::is_directory(installed, none)) return installed;
   const fs::path source = fs::path(MONARCH_SOURCE_SHARE) / "config";
   if (fs::is_directory(source, none)) return source;

@@ -72,6 +72,11 @@ Case resolvedCase(const YAML::Node& document, const std::string& name, Faults& f
 
 }  // namespace
 
+std::string fluidName(const Case& c) {
+  if (c.fluid == FluidKind::kPlugin) return c.fluid_plugin.name;
+  return c.fluid == FluidKind::kQuasiSteady ? "quasi_steady" : "navier_stokes";
+}
+
 Case loadCase(const std::string& name_or_path, const CaseOverrides& overrides,
               const std::string& config_dir) {
   const std::string path = findCase(name_or_path, config_dir);

@@ -95,9 +95,16 @@ const char* guidanceName(GuidanceKind kind) {
     case GuidanceKind::kNode:
       return "node";
     case GuidanceKind::kReplay:
+      return "replay";
+    case GuidanceKind::kPlugin:
       break;
   }
-  return "replay";
+  return "";
+}
+
+std::string guidanceName(const GuidanceSettings& settings) {
+  return settings.kind == GuidanceKind::kPlugin ? settings.plugin.name
+                                                : guidanceName(settings.kind);
 }
 
 std::array<CommandLimits, kCommands> defaultCommandLimits(const std::string& config_dir) {
@@ -113,10 +120,15 @@ std::array<CommandLimits, kCommands> defaultCommandLimits(const std::string& con
 
 GuidanceSettings readGuidance(Section section, double frequency, const Case& c, Faults& faults) {
   GuidanceSettings settings;
-  const std::string kind = section.choice("type", kindNames());
+  const std::string kind = section.choiceOrPlugin("type", kindNames(), "my_package/MyGuidance");
   for (GuidanceKind one : kKinds) {
     if (kind == guidanceName(one)) settings.kind = one;
   }
+  if (isPluginName(kind)) {
+    settings.kind = GuidanceKind::kPlugin;
+    settings.plugin = {kind, section.anything("parameters")};
+  }
+  section.take("parameters");  // of a case of a plugin that is led otherwise
   const double period = frequency > 0.0 ? 1.0 / frequency : 1.0;
   settings.wingbeat.frequency = frequency;
   const double time_constant =
@@ -193,7 +205,7 @@ void checkGuidance(const Case& c, const CaseMotion& motion, Faults& faults) {
     }
     return;
   }
-  if (g.kind == GuidanceKind::kMotion) return;
+  if (g.kind == GuidanceKind::kMotion || g.kind == GuidanceKind::kPlugin) return;
   faults.add(g.wingbeat.problems());
   if (!motion.is_table) return;
   if (c.time.t_start + c.time.period > motion.t_end + 1e-9 * c.time.period) {

@@ -35,13 +35,6 @@ YAML::Node flow(const std::vector<double>& values) {
   return node;
 }
 
-/// What the user wrote, for messages.
-std::string shown(const YAML::Node& node) {
-  if (node.IsScalar()) return "'" + node.Scalar() + "'";
-  if (node.IsSequence()) return "a list";
-  return node.IsMap() ? "a section" : "nothing";
-}
-
 }  // namespace
 
 void Faults::add(const std::string& text) {
@@ -63,6 +56,12 @@ void Faults::throwIfAny(const std::string& file) const {
   std::vector<std::string> lines{file + ": " + number};
   for (const std::string& text : texts_) lines.push_back("  " + text);
   throw InputError(lines);
+}
+
+std::string shown(const YAML::Node& node) {
+  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  if (node.IsSequence()) return "a list";
+  return node.IsMap() ? "a section" : "nothing";
 }
 
 std::string exactText(double value) {
@@ -197,12 +196,14 @@ std::string Section::name(const std::string& key) {
   return value;
 }
 
-std::string Section::choice(const std::string& key, const std::vector<std::string>& options) {
-  const auto node = required(key, "one of " + joined(options));
+std::string Section::choice(const std::string& key, const std::vector<std::string>& options,
+                            const std::string& others) {
+  const std::string must = "one of " + joined(options) + others;
+  const auto node = required(key, must);
   if (!node) return "";
   std::string text = node->IsScalar() ? node->Scalar() : "";
   if (std::find(options.begin(), options.end(), text) == options.end()) {
-    fault(key, " = " + shown(*node) + ": must be one of " + joined(options) + "; choose one");
+    fault(key, " = " + shown(*node) + ": must be " + must + "; choose one");
     return "";
   }
   put(key, text);

@@ -34,6 +34,12 @@ struct Bound {
   std::string remedy;  ///< "" : nothing better to say than to correct it
 };
 
+/// What the user wrote, for messages.
+std::string shown(const YAML::Node& node);
+
+/// Whether a name is a plugin's: package/Name.
+bool isPluginName(const std::string& name);
+
 /// Shortest decimal text that reads back as exactly this number.
 std::string exactText(double value);
 
@@ -62,7 +68,14 @@ class Section {
   std::string text(const std::string& key);
   /// A text that can stand in file names, URDF and messages: letters, digits, '_', '-' and '.'.
   std::string name(const std::string& key);
-  std::string choice(const std::string& key, const std::vector<std::string>& options);
+  /// `others`: what else may stand there, for messages alone.
+  std::string choice(const std::string& key, const std::vector<std::string>& options,
+                     const std::string& others = "");
+  /// The same, or the name of a plugin; `example` is one.
+  std::string choiceOrPlugin(const std::string& key, const std::vector<std::string>& options,
+                             const std::string& example);
+  /// A map of whatever is in it; none when the key is missing. Returns it as YAML.
+  std::string anything(const std::string& key);
   std::vector<double> numbers(const std::string& key, const std::string& unit);
   Eigen::Vector3d vector3(const std::string& key, const std::string& unit);
   std::optional<Eigen::Vector3d> maybeVector3(const std::string& key, const std::string& unit);

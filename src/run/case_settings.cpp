@@ -30,8 +30,13 @@ double wholeSteps(double steps, TimeGrid& time) {
 }  // namespace
 
 CaseWind readFluid(Section section, bool mirrored, Case& c, Faults& faults) {
-  const std::string solver = section.choice("solver", {"navier_stokes", "quasi_steady"});
-  c.fluid = solver == "quasi_steady" ? FluidKind::kQuasiSteady : FluidKind::kNavierStokes;
+  const std::string solver =
+      section.choiceOrPlugin("solver", {"navier_stokes", "quasi_steady"}, "my_package/MyFluid");
+  c.fluid = isPluginName(solver)       ? FluidKind::kPlugin
+            : solver == "quasi_steady" ? FluidKind::kQuasiSteady
+                                       : FluidKind::kNavierStokes;
+  if (c.fluid == FluidKind::kPlugin) c.fluid_plugin = {solver, section.anything("parameters")};
+  section.take("parameters");  // of a case of a plugin that is flown otherwise
   const std::string variant = section.choice("blade_element", {"sane_dickinson", "whitney_wood"});
   c.blade_element = variant == "whitney_wood" ? BladeElementVariant::kWhitneyWood
                                               : BladeElementVariant::kSaneDickinson;

@@ -10,6 +10,7 @@
 #include "monarch_flight/guidance/flight_controller.h"
 #include "monarch_flight/guidance/replay_guidance.h"
 #include "monarch_flight/run/kept_participant.h"
+#include "monarch_flight/run/plugins.h"
 #include "monarch_flight/run/wing_speeds.h"
 
 namespace monarch_flight {
@@ -56,6 +57,7 @@ class SinkChain : public StepSink {
 
 std::unique_ptr<FluidModel> makeFluid(const Case& c, Side side) {
   const Planform& planform = c.insect.wings[side].planform;
+  if (c.fluid == FluidKind::kPlugin) return fluidByPlugin(c, side);
   if (c.fluid == FluidKind::kQuasiSteady) return makeQuasiSteady(planform, c.air, c.blade_element);
   return makeNavierStokes(planform, c.air, c.grid, c.watchdog_s);
 }
@@ -85,6 +87,7 @@ PictureSettings picturesOf(const Case& c) {
 
 std::unique_ptr<Guidance> makeGuidance(const Case& c, std::shared_ptr<CommandInbox> inbox) {
   const GuidanceSettings& g = c.guidance;
+  if (g.kind == GuidanceKind::kPlugin) return guidanceByPlugin(c);
   if (g.kind == GuidanceKind::kReplay) return std::make_unique<ReplayGuidance>(c.motion, g.replay);
   if (g.kind == GuidanceKind::kMotion) {
     const double frequency = c.time.period > 0.0 ? 1.0 / c.time.period : 0.0;

@@ -200,6 +200,7 @@ std::string Summary::json(const std::string& failure) const {
   j["case"] = case_.name;
   j["case_sha256"] = case_.sha256;
   j["version"] = MONARCH_FLIGHT_VERSION;
+  j["fluid"] = fluidName(case_);
   j["steps"] = steps_;
   j["flaps"] = flaps();
   j["free_steps"] = solved_.count;
@@ -225,7 +226,7 @@ std::string Summary::json(const std::string& failure) const {
     j["roll_deg"] = degrees(roll_);
   }
   if (case_.guidance.kind != GuidanceKind::kMotion) {
-    j["guidance"] = {{"type", guidanceName(case_.guidance.kind)},
+    j["guidance"] = {{"type", guidanceName(case_.guidance)},
                      {"clipped", guidance_.clipped},
                      {"refused", guidance_.refused},
                      {"lost_from_flap", lost_ == kNever ? Json(nullptr) : Json(flapOf(lost_))}};

@@ -43,6 +43,7 @@ double residual(const TrimResult& result) {
 std::string airText(const FlapMap& map) {
   const Case& c = map.baseCase();
   if (c.fluid == FluidKind::kQuasiSteady) return "quasi-steady air";
+  if (c.fluid == FluidKind::kPlugin) return "air by " + fluidName(c);
   return "Navier-Stokes air, grid " + c.grid.level + ", run-in of " + std::to_string(map.runIn()) +
          " flaps";
 }

@@ -17,7 +17,7 @@
 
 namespace monarch_flight {
 
-enum class FluidKind { kNavierStokes, kQuasiSteady };
+enum class FluidKind { kNavierStokes, kQuasiSteady, kPlugin };
 
 /// Time as integer steps: t = t_start + step * dt.
 struct TimeGrid {
@@ -50,6 +50,7 @@ struct Case {
   std::shared_ptr<const WindModel> wind = std::make_shared<SteadyWind>();
   double gravity = 9.81;         ///< [m/s^2], along +z of NED
   FluidKind fluid = FluidKind::kNavierStokes;
+  PluginChoice fluid_plugin;     ///< of kPlugin
   BladeElementVariant blade_element = BladeElementVariant::kSaneDickinson;
   GridSettings grid;
   /// Motion of everything that is prescribed, and of the free coordinates during the prescribed start
@@ -64,6 +65,9 @@ struct Case {
   std::string resolved_yaml;     ///< the case file with every key written out
   std::string sha256;            ///< of resolved_yaml, hex: what the handshake compares
 };
+
+/// Its flow model, as fluid/solver names it.
+std::string fluidName(const Case& c);
 
 /// `overrides` from the command line: keys of config/keys.yaml with a place in the case file, each a
 /// YAML scalar.

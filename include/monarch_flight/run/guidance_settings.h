@@ -16,10 +16,20 @@ enum class GuidanceKind {
   kCommands,    ///< the same, led by what comes on the topic `command`
   kController,  ///< led by the built-in controller
   kNode,        ///< led, or replaced, by a node of one's own
-  kReplay       ///< as in a recorded flight
+  kReplay,      ///< as in a recorded flight
+  kPlugin       ///< by guidance of another package (run/plugins.h)
 };
 
-/// As in a case.
+/// A plugin as a case names it.
+struct PluginChoice {
+  std::string name;        ///< package/Name
+  std::string parameters;  ///< its section of the case, as YAML
+};
+
+struct GuidanceSettings;
+/// As guidance/type has it.
+std::string guidanceName(const GuidanceSettings& settings);
+/// The same; "" of a plugin.
 const char* guidanceName(GuidanceKind kind);
 
 /// guidance/limits and guidance/rates of defaults.yaml; the rates a flap. Throws InputError.
@@ -27,9 +37,10 @@ std::array<CommandLimits, kCommands> defaultCommandLimits(const std::string& con
 
 struct GuidanceSettings {
   GuidanceKind kind = GuidanceKind::kMotion;
-  WingbeatSettings wingbeat;                   ///< unless kMotion or kReplay
+  WingbeatSettings wingbeat;                   ///< unless kMotion, kReplay or kPlugin
   std::optional<ControllerSettings> controller;  ///< of kController
   std::shared_ptr<const NumericTable> replay;  ///< ReplayGuidance::columns(), of kReplay
+  PluginChoice plugin;                         ///< of kPlugin
 };
 
 }  // namespace monarch_flight

@@ -15,6 +15,11 @@ NAMES = dict(amplitude="flapping amplitude", flapping_mean="mean of the flapping
 AIRS = dict(quasi_steady="quasi-steady air", navier_stokes="Navier-Stokes air")
 
 
+def air(case):
+    solver = case["fluid"]["solver"]
+    return AIRS.get(solver, f"air by {solver}")
+
+
 def pitch(axes, flight, alone):
     for one, style in ((alone, dict(color=THEIRS, ls="--", lw=1, label="without control")),
                        (flight, dict(color=OURS, lw=1, label="controlled"))):
@@ -113,7 +118,7 @@ def draw(flight, alone):
         path(path_axes, flight, alone)
     for axes in (*over_flaps, path_axes):
         axes.legend(fontsize=7, loc="best")
-    figure.suptitle(f"{flight.case['name']}, {AIRS[flight.case['fluid']['solver']]}")
+    figure.suptitle(f"{flight.case['name']}, {air(flight.case)}")
     return figure
 
 
