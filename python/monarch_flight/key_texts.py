@@ -32,9 +32,9 @@ def launch_parameters(table):
 def value(key):
     """Unit and range, for the manual."""
     words = {"choice": ", ".join(f"`{choice}`" for choice in key.choices), "truth": "`true`, `false`",
-             "program": "name of a program", "path": "path", "command": "command", "case": "name or path"}
+             "program": "name of a program", "package": "name of a package", "path": "path", "command": "command", "case": "name or path"}
     if key.type in words:
-        return words[key.type]
+        return words[key.type] + (f", `{key.plugin}`" if key.plugin else "")
     bound = f"> {key.above:g}" if key.type == "number" else (
         f">= {key.from_}" if key.to is None else f"{key.from_} to {key.to}")
     return f"{key.unit}, {bound}" if key.unit else bound

@@ -5,6 +5,7 @@ import functools
 import re
 import textwrap
 
+PLUGIN = r"[A-Za-z][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)+"
 NUMBER = r"([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?"
 
 
@@ -23,6 +24,7 @@ class Key:
     type: str
     doc: str
     choices: tuple = ()
+    plugin: str = ""
     above: float = None
     from_: int = 0
     to: int = None
@@ -37,7 +39,7 @@ class Key:
     def allowed(self):
         """What a value must be, in words; empty where anything goes."""
         if self.type == "choice":
-            return either(self.choices)
+            return either(self.choices) + (f", or a plugin, as {self.plugin}" if self.plugin else "")
         if self.type == "truth":
             return "true or false"
         if self.type == "number":
@@ -45,7 +47,7 @@ class Key:
         if self.type == "count":
             bounds = f" >= {self.from_}" if self.to is None else f" from {self.from_} to {self.to}"
             return "a whole number" + (" > 0" if self.to is None and self.from_ == 1 else bounds)
-        return "the name of a program" if self.type == "program" else ""
+        return f"the name of a {self.type}" if self.type in ("program", "package") else ""
 
     @property
     def words(self):
@@ -54,7 +56,7 @@ class Key:
 
     def accepts(self, value):
         if self.type == "choice":
-            return value in self.choices
+            return value in self.choices or bool(self.plugin and re.fullmatch(PLUGIN, value))
         if self.type == "truth":
             return value in ("true", "false")
         if self.type == "number":
@@ -66,6 +68,8 @@ class Key:
                 self.to is None or int(value) <= self.to)
         if self.type == "program":
             return bool(re.fullmatch(r"[A-Za-z0-9_.-]+", value))
+        if self.type == "package":
+            return bool(re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", value))
         return bool(value)
 
 

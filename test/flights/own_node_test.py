@@ -35,6 +35,20 @@ class OwnNode(flying.FlightTest):
         self.assertLess(work["fluid"], 0.0)
         self.assertLess(work["largest_error_of_a_step"], 1e-6 * work["largest_step"])
 
+    def test_the_same_program_is_the_air_of_the_left_wing(self):
+        """Of a symmetric flight, so that both wings have the same numbers."""
+        for name, wings in (("two", "independent"), ("one", "mirrored")):
+            code, output = self.fly(*KEYS[:3], "flaps:=0.04", "steps_per_flap:=500", "wings:=" + wings,
+                                    "out:=" + self.out(name), limit=120)
+            self.assertEqual(code, 0, output)
+        (columns, two), (_, one) = (flying.table(self.out(name), "flight.csv") for name in ("two", "one"))
+        at = columns.index
+        for row, alone in zip(two, one, strict=True):
+            self.assertEqual(row[at("fz")], row[at("fz_L")])
+            self.assertEqual((row[at("roll")], row[at("y")]), (0.0, 0.0))
+            self.assertAlmostEqual(row[at("fz")], alone[at("fz")], delta=1e-7)
+        self.assertGreater(max(abs(row[at("fz_L")]) for row in two), 1e-4)
+
     def test_what_it_cannot_fly_is_said(self):
         code, output = self.fly("case:=hinge", *KEYS[1:], "out:=" + self.out())
         self.assertNotEqual(code, 0, output)

@@ -51,7 +51,6 @@ class TwoWings(flying.FlightTest):
     def test_refused(self):
         for keys, words in (
                 (("wings:=sideways",), "wings:=sideways: must be mirrored or independent"),
-                (("wings:=independent", "fluid_node:=drag_fluid.py"), "is one fluid for mirrored wings"),
                 ((self.case(), "wings:=mirrored"), "left_wing: must not be given while one wing is")):
             code, output = self.fly(*keys, "in_process:=true" if "case" in keys[0] else "flaps:=1")
             self.assertEqual(code, 2, output)

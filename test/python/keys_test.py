@@ -14,10 +14,10 @@ from monarch_flight.command import main  # noqa: E402
 
 TABLE = keys.run_keys()
 WRONG = dict(choice=("", "water"), truth=("yes", "True", "1"), count=("-1", "0.5", "two", "1e1", "+1"),
-             number=("0", "-1", "nan", "inf", "1e", "e1", "1_0", "0e5", "1e999"), program=("a b", "../x", ""),
+             number=("0", "-1", "nan", "inf", "1e", "e1", "1_0", "0e5", "1e999"), program=("a b", "../x", ""), package=("a/b", "", "1a"),
              path=("",), case=("",), command=("",))
 RIGHT = dict(truth=("true", "false"), number=("1", ".1", "1e-1", "0.01e+1", "100E-3", "2."), count=("1", "10"),
-             program=("drag_fluid.py",), path=("it's a folder", "/x"), case=("climb",), command=("mpirun -np 2",))
+             program=("drag_fluid.py",), package=("my_package",), path=("it's a folder", "/x"), case=("climb",), command=("mpirun -np 2",))
 
 
 class Table(unittest.TestCase):
@@ -27,6 +27,10 @@ class Table(unittest.TestCase):
                 self.assertTrue(key.accepts(value), (key.name, value))
             for value in WRONG[key.type]:
                 self.assertFalse(key.accepts(value), (key.name, value))
+
+    def test_plugins(self):
+        for name, good in (("a/B", True), ("a/b/C_1", True), ("a/", False), ("/b", False), ("a/1", False), ("a b/c", False)):
+            self.assertEqual([TABLE[key].accepts(name) for key in ("fluid", "guidance", "grid")], [good, good, False], name)
 
     def test_bounds_of_counts(self):
         self.assertEqual([TABLE["ranks"].accepts(n) for n in ("0", "1", "10000", "10001")], [False, True, True, False])

@@ -50,7 +50,6 @@ class Requests(unittest.TestCase):
         wanted = request([f"case:={os.path.relpath(case)}"], DARK)
         found = (wanted.values["case"], wanted.values["wings"], wanted.leader)
         self.assertEqual(found, (str(case), "independent", "commands"))
-        self.assertIn("is one fluid for mirrored wings", self.faults(f"case:={case}", "fluid_node:=a.py"))
         case.write_text("[broken", encoding="utf-8")
         self.assertEqual(request([f"case:={case}"], DARK).leader, "motion")  # whoever flies it says what is wrong
 
@@ -85,6 +84,8 @@ class Requests(unittest.TestCase):
         self.assertIn("name its program by guidance_node:=", self.faults("guidance:=node"))
         self.assertIn("needs guidance:=node, not motion", self.faults("guidance:=motion", "guidance_node:=a.py"))
         self.assertEqual(request(["guidance_node:=a.py"], DARK).leader, "node")
+        self.assertEqual(request(["guidance:=a/B"], DARK).leader, "a/B")
+        self.assertIn("name the program of this package by guidance_node:=", self.faults("guidance_pkg:=mine"))
 
     def test_a_folder_in_use_and_a_misspelt_case(self):
         (self.folder / "x").write_text("", encoding="utf-8")

@@ -3,11 +3,11 @@ import os
 import shlex
 import signal
 
-from monarch_flight.runs import summary
+from monarch_flight.runs import node_keys, summary
 from monarch_flight.telling import say
 
 COMPLETE, FAILED, REFUSED, STOPPED = 0, 1, 2, 130
-KEPT = ("ranks", "fluid_node", "guidance_node")  # keys that a resumed run needs again
+KEPT = ("ranks", *node_keys.ALL)  # keys that a resumed run needs again
 
 
 def how(exit_code):

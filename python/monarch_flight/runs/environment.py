@@ -7,10 +7,18 @@ from monarch_flight import places
 ROS_OWN = ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP")  # the person's, not the setup script's
 
 
+def has_sourced(prefix):
+    """Whether this shell has the setup.bash of that place behind it, or of a workspace on top of it."""
+    return str(prefix) in os.environ.get("CMAKE_PREFIX_PATH", "").split(":") and "ROS_PACKAGE_PATH" in os.environ
+
+
 def sourced():
-    """That of this process, after the setup.bash of the build or the installation in use."""
+    """That of this process, after the setup.bash of the build or the installation in use. Where that is done it is not
+    done again: it would take workspaces on top of it away."""
     script = places.prefix() / "setup.bash"
     base = dict(os.environ, PATH="/usr/bin:" + os.environ.get("PATH", ""))
+    if has_sourced(places.prefix()):
+        return base
     told = subprocess.run(["bash", "-c", 'source "$1" >/dev/null && env -0', "bash", str(script)], check=True,
                           env=base, stdout=subprocess.PIPE).stdout
     found = dict(item.split("=", 1) for item in os.fsdecode(told).split("\0") if "=" in item)

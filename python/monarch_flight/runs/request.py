@@ -7,6 +7,7 @@ import time
 import yaml
 
 from monarch_flight import case_files, keys, places
+from monarch_flight.runs import node_keys
 
 
 @dataclasses.dataclass
@@ -63,7 +64,7 @@ class Check:
     def replay(self):
         if not self.replayed:
             return
-        for name in ("resume", "case", "guidance_node"):
+        for name in ("resume", "case", "guidance_node", "guidance_pkg"):
             if name in self.values:
                 self.faults.append(f"replay:={self.replayed} with {name}:={self.values[name]}: give only one of them")
         if self.values.get("guidance", "replay") != "replay":
@@ -115,6 +116,8 @@ class Check:
             self.faults.append(f"guidance by a node{given}: name its program by guidance_node:=")
         elif leader != "node" and node:
             self.fault("guidance_node", f"needs guidance:=node, not {leader}")
+        if "guidance_pkg" in self.values and not node:
+            self.fault("guidance_pkg", "name the program of this package by guidance_node:=")
         if self.values.get("guidance") == "replay" and not self.replayed:
             self.faults.append("guidance:=replay: name the folder of the recorded flight by replay:=")
         return leader
@@ -123,13 +126,11 @@ class Check:
         """The nodes must know whether the left wing has a fluid of its own."""
         if case.get("wings") == "independent":
             self.values.setdefault("wings", "independent")
-        if self.values.get("wings") == "independent" and "fluid_node" in self.values:
-            self.fault("fluid_node", "is one fluid for mirrored wings; leave it out, or take wings:=mirrored")
 
     def transport(self):
         """What needs nodes, and a display."""
         if "true" in (self.values.get("in_process"), self.values.get("plan")):
-            for name, value in (("rviz", "true"), ("fluid_node", None), ("guidance_node", None),
+            for name, value in (("rviz", "true"), *((name, None) for name in node_keys.ALL),
                                 ("guidance", "commands"), ("paused", "true")):
                 if name in self.values and value in (None, self.values[name]):
                     self.fault(name, "needs the nodes, so in_process:=false")
