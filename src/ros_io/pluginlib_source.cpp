@@ -10,7 +10,7 @@ namespace {
 
 /// `base`: the class's full name, as plugin descriptions have it.
 template <class Plugin>
-PluginSource<Plugin> sourceOf(const std::string& base) {
+PluginSource<Plugin> sourceOf(const char* base) {
   // Never deleted: what a plugin has made needs its library.
   const auto loader = [base]() -> pluginlib::ClassLoader<Plugin>& {
     static auto* const one = new pluginlib::ClassLoader<Plugin>("monarch_flight", base);

@@ -73,11 +73,12 @@ auto make(Plugin& plugin, const Named& named, const Input& input) {
 void setPluginSources(PluginSources all) { sources() = std::move(all); }
 
 void requireFluidPlugin(const Case& c) {
-  if (c.fluid == FluidKind::kPlugin) load(sources().fluids, fluidOf(c));
+  if (c.fluid != FluidKind::kPlugin) return;
+  for (Side side : c.sides()) fluidByPlugin(c, side);
 }
 
 void requireGuidancePlugin(const Case& c) {
-  if (c.guidance.kind == GuidanceKind::kPlugin) load(sources().guidances, guidanceOf(c));
+  if (c.guidance.kind == GuidanceKind::kPlugin) guidanceByPlugin(c);
 }
 
 void requirePlugins(const Case& c) {

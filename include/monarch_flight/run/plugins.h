@@ -23,7 +23,8 @@ struct FluidPluginInput {
 class FluidPlugin {
  public:
   virtual ~FluidPlugin() = default;
-  /// The air of one wing. Throws what a person should read where that cannot be.
+  /// The air of one wing; what takes time belongs into its `start`. Throws what a person should
+  /// read where that cannot be.
   virtual std::unique_ptr<FluidModel> make(const FluidPluginInput& input) = 0;
 };
 
@@ -57,7 +58,8 @@ struct PluginSources {
 /// read. To be called before any of the following.
 void setPluginSources(PluginSources sources);
 
-/// Loads what the case names; throws InputError with all that is unknown or cannot be loaded.
+/// Makes once, and drops, what plugins make of the case: before anything is written. Throws
+/// InputError with all that is unknown, cannot be loaded or is refused.
 void requirePlugins(const Case& c);
 /// The same for its fluid, for its guidance alone.
 void requireFluidPlugin(const Case& c);
