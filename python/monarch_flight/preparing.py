@@ -38,10 +38,10 @@ def source_only(command):
     return places.source()
 
 
-def core_built(target, what, folder=None):
-    """The program `target` of the core, compiled without ROS into a folder of its own."""
+def core_built(target, what):
+    """The program `target` of the core, compiled without ROS into build_verify/."""
     root = source_only(what)
-    build = folder or os.environ.get("MONARCH_VERIFY_BUILD") or root / "build_verify"
+    build = os.environ.get("MONARCH_VERIFY_BUILD") or root / "build_verify"
     os.makedirs(build, exist_ok=True)
     log = os.path.join(build, "build.log")
     print(f"{what}: compiling into {build}", flush=True)

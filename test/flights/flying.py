@@ -27,6 +27,8 @@ def free_port():
 class FlightTest(unittest.TestCase):
     """Gives each test an empty folder and ends what it started."""
 
+    place = None  # where commands are called, if not here
+
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="flight_test_")
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
@@ -47,7 +49,7 @@ class FlightTest(unittest.TestCase):
         self.addCleanup(log.close)
         process = subprocess.Popen(
             [os.path.join(ROOT, "scripts", "fly"), *arguments], stdout=log, stderr=log,
-            stdin=subprocess.DEVNULL, env=self.environment(**environment),
+            stdin=subprocess.DEVNULL, env=self.environment(**environment), cwd=self.place,
             # Tests in a shell's background do not hear SIGINT, and would hand that on.
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         process.log = log

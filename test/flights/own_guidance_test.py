@@ -114,7 +114,7 @@ class OwnGuidance(Guided):
                 (("guidance:=node",), "name its program by guidance_node:="),
                 (("guidance:=wings",), "must be motion, commands, controller, node or replay"),
                 ((LED, "guidance:=commands"), "needs guidance:=node, not commands"),
-                ((LED, "in_process:=true"), "guidance_node: needs the nodes"),
+                ((LED, "in_process:=true"), "guidance_node:=climb_guidance.py: needs the nodes"),
                 (("guidance:=commands", "in_process:=true"), "guidance:=commands: needs the nodes"),
                 (("guidance:=replay",), "name the folder of the recorded flight by replay:="),
                 (("replay:=" + self.out("empty"),), "not the folder of a recorded flight"),

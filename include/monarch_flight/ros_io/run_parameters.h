@@ -14,15 +14,15 @@ namespace monarch_flight {
 /// namespace of the run; an empty text means not given.
 struct RunParameters {
   std::string name = "climb_controlled";  ///< `case`: name or path of the case file
-  std::string out;             ///< folder of the results; empty: flights/<case>-<time>
-  std::string resume;          ///< folder of a run to go on with; empty: a new run
-  std::string directory;       ///< where relative paths start; empty: the working directory
+  std::string out;                        ///< folder of the results; empty: flights/<case>-<time>
+  std::string resume;                     ///< folder of a run to go on with; empty: a new run
+  std::string directory;  ///< where relative paths start; empty: the working directory
   /// keys of config/keys.yaml that go in place of what the case file says
   CaseOverrides overrides;
-  bool plan = false;           ///< `plan`: tell what the run means and end (command line only)
-  int ranks = 1;               ///< `ranks`: processes of the flow solver
-  bool paused = false;         ///< `paused`: hold the run at its start (nodes only)
-  double watchdog_s = 0.0;     ///< `watchdog` [s]; 0: that of the case
+  bool plan = false;        ///< `plan`: tell what the run means and end (command line only)
+  int ranks = 1;            ///< `ranks`: processes of the flow solver
+  bool paused = false;      ///< `paused`: hold the run at its start (nodes only)
+  double watchdog_s = 0.0;  ///< `watchdog` [s]; 0: that of the case
 };
 
 /// Checks keys and values by config/keys.yaml. `where` is put before a key in messages
@@ -40,9 +40,9 @@ Case loadCase(const RunParameters& parameters);
 /// Throws InputError unless mpirun started as many processes as `ranks` says (1: without mpirun)
 /// and the fluid of the case can use them. For the program that holds the fluid.
 void requireProcesses(const RunParameters& parameters, const Case& c);
-/// What the run means (RunPlan), for people; with Navier-Stokes air on this machine. Nodes (`nodes`:
-/// the fluid is one) and processes of the flow wait for each other no longer than the watchdog.
-/// Throws InputError when that cannot be.
+/// What the run means (RunPlan), for people; with Navier-Stokes air on this machine. Nodes
+/// (`nodes`: the fluid is one) and processes of the flow wait for each other no longer than the
+/// watchdog. Throws InputError when that cannot be.
 std::string plannedRun(const RunParameters& parameters, const Case& c, bool nodes);
 /// Where the run writes: absolute path.
 std::string outputDirectory(const RunParameters& parameters, const Case& c);

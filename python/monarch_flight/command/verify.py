@@ -10,7 +10,6 @@ monarch verify dynamics [NAME ...]
 
 The core is compiled without ROS. The exit code is 0 only if every row is within its bound. What the files hold of
 other names is kept."""
-import os
 import subprocess
 
 from monarch_flight import keys, preparing
@@ -29,10 +28,9 @@ def add_arguments(parser):
 
 
 def flow(names, values):
-    root = preparing.source_only("verify")
+    preparing.source_only("verify")
     preparing.installed("fly", "verify")
-    folder = os.environ.get("MONARCH_VERIFY_BUILD") or os.environ.get("MONARCH_BUILD") or root / "build/verify"
-    program = preparing.core_built("verify", "verify", folder)
+    program = preparing.core_built("verify", "verify")
     out = values.get("out", "verification")
     code = subprocess.run([program, *names, "out:=" + out], env=preparing.one_threaded(), check=False).returncode
     if code in (0, 1):

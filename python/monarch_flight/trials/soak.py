@@ -47,10 +47,10 @@ def single_process(out):
 
 
 def nodes(log):
-    """{name: pid} as roslaunch tells them."""
+    """{name: pid} as roslaunch tells them, once all are started."""
     with open(log) as f:
         pids = re.findall(r"process\[monarch_flight/(\w+)-\d+\]: started with pid \[(\d+)\]", f.read())
-    return {name: int(pid) for name, pid in pids}
+    return {name: int(pid) for name, pid in pids} if len(pids) >= 4 else {}  # all of them
 
 
 def watch(process, find, table):
