@@ -124,8 +124,8 @@ TEST_F(InverseDynamics, AFlightThatIsLedNeedsNothingEither) {
   ASSERT_GT(rows.size(), 80u);
   const double weight = c.insect.totalMass() * c.gravity;
   for (const RequiredLoads& row : rows) {
-    EXPECT_LT(row.force.lpNorm<Eigen::Infinity>(), 1e-4 * weight);
-    EXPECT_LT(row.moment.lpNorm<Eigen::Infinity>(), 1e-4 * weight * 0.01);
+    EXPECT_LT(row.force.lpNorm<Eigen::Infinity>(), 1e-5 * weight);
+    EXPECT_LT(row.moment.lpNorm<Eigen::Infinity>(), 1e-5 * weight * 0.01);
   }
   expectHinge(rows, Side::kRight, c.insect.wings.right);
   double largest = 0.0;
