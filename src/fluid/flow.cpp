@@ -136,6 +136,7 @@ void NavierStokes::prepareStep() {
 
 /// One evaluation: (1) momentum with the wall's new velocity, (2) pressure, (3) loads.
 Loads NavierStokes::evaluate(const WingMotion& next) {
+  if (!(dt_ > 0)) throw std::logic_error("NavierStokes::evaluate before start");
   evaluated_ = false;  // until it is done: what throws leaves nothing to commit
   if (step_.dt == 0) prepareStep();
   LapTimer timer(report_.kernel_s);
@@ -192,6 +193,7 @@ void NavierStokes::commit() {
   std::swap(vn_, v_star_);  // v* has become n
   level_m_ = level_n_;
   level_n_ = next_;
+  committed_acceleration_ = acceleration_;
   ++steps_;
   prepared_ = evaluated_ = false;
   step_ = {};

@@ -52,7 +52,7 @@ class NavierStokes : public FluidModel {
   const Grid& grid() const { return grid_; }
   const Layout& layout() const { return layout_; }
   const Slab& slab() const { return slab_; }
-  const Velocity& velocity() const { return vn_; }  ///< committed level n
+  const Velocity& velocity() const { return requireCommitted(), vn_; }  ///< committed level n
   const Array& pressure() const { return p_; }      ///< committed, cell (i, j, k) at face (i, j, k)
   /// Replaces the air at rest by a known flow: levels 0 and -1 and, from then on, the values on a
   /// closed outer boundary. For verification: it is not part of the saved state. After start().
@@ -74,6 +74,9 @@ class NavierStokes : public FluidModel {
 
   double* phi() { return phi_.data() + phi_start_; }  ///< of this process's first cell
   void fillPhiHalo();
+  /// Between evaluate and commit the velocities are those in the axes of the next level:
+  /// std::logic_error.
+  void requireCommitted() const;
 
   Grid grid_;
   Slab slab_;
@@ -91,6 +94,7 @@ class NavierStokes : public FluidModel {
   Level level_n_, level_m_;  ///< n and n-1
   Velocity vn_, vm_;
   Array p_;
+  WallVelocity committed_acceleration_{};  ///< of the wing's points, own axes [m/s^2]
   KnownFlow known_;  ///< empty: air at rest
 
   // of the step being computed

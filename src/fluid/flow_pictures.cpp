@@ -1,6 +1,7 @@
 // Fields for pictures and files: what surrounds the wing at the committed level.
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 
 #include "fluid/flow.h"
 #include "fluid/wing_loads.h"
@@ -29,6 +30,14 @@ Eigen::Vector3d curl(const Eigen::Matrix3d& g) {
 }
 
 }  // namespace
+
+void NavierStokes::requireCommitted() const {
+  if (prepared_) {
+    throw std::logic_error(
+        "Navier-Stokes: velocities are those of the committed level, not to be had between "
+        "evaluate and commit");
+  }
+}
 
 Eigen::Vector3d NavierStokes::velocityAt(int i, int j, int k) const {
   const std::ptrdiff_t q = layout_.at(i, j, k);
@@ -77,7 +86,8 @@ SurfacePressure NavierStokes::surfacePressure() const {
   for (int j = 0; slab_.owns(grid_.k_wing) && j < layout_.ny; ++j) {
     for (int i = 0; i < layout_.nx; ++i) {
       if (!grid_.isWing(i, j)) continue;
-      const double x = grid_.x.centre[i], y = grid_.y.centre[j], a_n = acceleration_.at(2, x, y);
+      const double x = grid_.x.centre[i], y = grid_.y.centre[j],
+                   a_n = committed_acceleration_.at(2, x, y);
       facets.push_back({float(x), float(y), float(grid_.x.width[i]), float(grid_.y.width[j]),
                         float(p.below(i, j, air_.rho, a_n)), float(p.above(i, j, air_.rho, a_n))});
     }
@@ -86,6 +96,7 @@ SurfacePressure NavierStokes::surfacePressure() const {
 }
 
 std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) const {
+  requireCommitted();
   std::vector<VortexPoint> points;
   for (int k = std::max(1, layout_.k0); k < std::min(layout_.k1, layout_.nz - 1); ++k) {
     for (int j = 1; j < layout_.ny - 1; ++j) {
@@ -114,7 +125,8 @@ std::vector<FlowField::WingFace> NavierStokes::wingFaces() const {
   for (int j = 0; slab_.owns(kw) && j < layout_.ny; ++j) {
     for (int i = 0; i < layout_.nx; ++i) {
       if (!grid_.isWing(i, j)) continue;
-      const double x = grid_.x.centre[i], y = grid_.y.centre[j], a_n = acceleration_.at(2, x, y);
+      const double x = grid_.x.centre[i], y = grid_.y.centre[j],
+                   a_n = committed_acceleration_.at(2, x, y);
       FlowField::WingFace f{float(x),
                             float(y),
                             float(grid_.x.width[i]),
@@ -136,6 +148,7 @@ std::vector<FlowField::WingFace> NavierStokes::wingFaces() const {
 }
 
 std::shared_ptr<const FlowField> NavierStokes::flowField() const {
+  requireCommitted();
   FlowField mine;
   const auto put = [](std::vector<float>& to, const Eigen::Vector3d& v) {
     to.insert(to.end(), {float(v.x()), float(v.y()), float(v.z())});

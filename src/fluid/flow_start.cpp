@@ -64,6 +64,7 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
     for (Array& a : v->c) std::fill(a.begin(), a.end(), 0.0);
   }
   std::fill(p_.begin(), p_.end(), 0.0);
+  committed_acceleration_ = {};
   level_n_.frame = motion.R_IW;
   level_n_.grid = gridVelocity(motion);
   level_n_.wall = wallVelocity(level_n_.grid);

@@ -68,7 +68,7 @@ std::vector<char> NavierStokes::save() const {
   exchangeLevel(w, level_m_);
   for (int i = 0; i < 9; ++i) w(predicted_frame_.data()[i]);
   for (int c = 0; c < 3; ++c) w(vn_.c[c]), w(vm_.c[c]);
-  w(p_);
+  w(p_), w(committed_acceleration_);
   const long size = static_cast<long>(mine.size());
   std::vector<char> sizes, head, all = slab_.gather(mine);
   Writer{sizes}(size);
@@ -108,7 +108,7 @@ void NavierStokes::restore(const std::vector<char>& bytes) {
   exchangeLevel(r, level_m_);
   for (int i = 0; i < 9; ++i) r(predicted_frame_.data()[i]);
   for (int c = 0; c < 3; ++c) r(vn_.c[c]), r(vm_.c[c]);
-  r(p_);
+  r(p_), r(committed_acceleration_);
   for (Array& a : v_star_.c) std::fill(a.begin(), a.end(), 0.0);
   evaluated_ = false;
   step_ = {};

@@ -87,8 +87,11 @@ void Momentum::eliminate(const Velocity& c, const WallVelocity& wall_change, con
   }
 }
 
-/// The two points that meet at the wing's plane, of which this process owns one or both.
+/// The two points that meet at the wing's plane, of which this process owns one or both. With one
+/// cell below it the lower point of w is the outer face, which does not change: its line has only
+/// the half above.
 void Momentum::join(const Lines& lines, RowRange rows) const {
+  if (lines.component == 2 && grid_.k_wing == 1) return;
   const int i0 = first(lines.component, 0), i1 = last(lines.component, 0), kw = grid_.k_wing;
   for (int j = rows.first; j <= rows.last; ++j) {
     const double* __restrict ga = lines.gammaAt(j, kw - 1);

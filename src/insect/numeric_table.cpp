@@ -54,8 +54,9 @@ std::vector<std::string> header(const std::string& text, const std::string& name
                                 std::vector<std::string>& faults) {
   std::vector<std::string> names = cells(text);
   std::string separator = otherSeparator(names);
-  if (separator.empty() && names.size() == 1 && text.find(' ') != std::string::npos) {
-    separator = "blanks";
+  if (separator.empty() && names.size() == 1) {
+    if (text.find(' ') != std::string::npos) separator = "blanks";
+    if (text.find('|') != std::string::npos) separator = "bars";
   }
   if (!separator.empty()) throw InputError(separatorFault(name + ": header", text, separator));
   for (auto one = names.begin(); one != names.end(); ++one) {
@@ -76,7 +77,11 @@ std::vector<double> parseRow(const std::vector<std::string>& texts, const Numeri
   }
   if (texts.size() != table.columns.size()) {
     faults.push_back(where + " has " + std::to_string(texts.size()) + " values: must be " +
-                     std::to_string(table.columns.size()) + " as in the header; complete the row");
+                     std::to_string(table.columns.size()) + " as in the header; " +
+                     (texts.size() < table.columns.size()
+                          ? "complete the row"
+                          : "commas separate columns, so numbers need a decimal point: correct the "
+                            "row"));
     return row;
   }
   for (std::size_t i = 0; i < texts.size(); ++i) {

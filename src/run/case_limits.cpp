@@ -13,29 +13,21 @@ namespace {
 constexpr double kLeastSteps = 10.0;
 constexpr double kMostTurn = 1.0;  // of the wing in a step [rad]: six steps in a turn
 
-/// How to have steps of at most `dt` [s].
-std::string shorterSteps(const Case& c, double dt) {
-  std::ostringstream text;
-  text << "dt <= " << dt << " s";
-  if (c.time.period > 0.0) {
-    text << " (steps_per_flap >= " << std::ceil(c.time.period / dt * (1.0 - 1e-9)) << ')';
-  }
-  return text.str();
+/// Of the wing about its hinge, in air [kg m2].
+double hingeInertia(const Case& c, const Wing& wing) {
+  return wing.plate.J(1, 1) +
+         makeQuasiSteady(wing.planform, c.air, c.blade_element)->addedMass()(4, 4);
 }
 
 void checkHinge(const Case& c, const Wing& wing, const char* section, Faults& faults) {
-  if (!c.free[kThetaR] || !(wing.kappa > 0.0)) return;
-  const double added = makeQuasiSteady(wing.planform, c.air, c.blade_element)->addedMass()(4, 4);
-  const double inertia = wing.plate.J(1, 1) + added;
-  const double period = 2.0 * M_PI * std::sqrt(inertia / wing.kappa);
-  const double longest = period / kLeastSteps;
-  if (c.time.dt <= longest) return;
+  const double period = hingePeriod(c, wing), longest = period / kLeastSteps;
+  if (period == 0.0 || c.time.dt <= longest) return;
   std::ostringstream text;
   text << "insect/" << section << "/kappa = " << wing.kappa << " N m/rad: the free wing swings in "
        << period << " s on this hinge: must be at least " << kLeastSteps
        << " steps of dt = " << c.time.dt
        << " s, else the time step makes its swings; take kappa <= "
-       << inertia * std::pow(2.0 * M_PI / (kLeastSteps * c.time.dt), 2) << ", or "
+       << hingeInertia(c, wing) * std::pow(2.0 * M_PI / (kLeastSteps * c.time.dt), 2) << ", or "
        << shorterSteps(c, longest);
   faults.add(text.str());
 }
@@ -51,6 +43,20 @@ void checkTurns(const Case& c, Faults& faults) {
 }
 
 }  // namespace
+
+double hingePeriod(const Case& c, const Wing& wing) {
+  if (!c.free[kThetaR] || !(wing.kappa > 0.0)) return 0.0;
+  return 2.0 * M_PI * std::sqrt(hingeInertia(c, wing) / wing.kappa);
+}
+
+std::string shorterSteps(const Case& c, double dt) {
+  std::ostringstream text;
+  text << "dt <= " << dt << " s";
+  if (c.time.period > 0.0) {
+    text << " (steps_per_flap >= " << std::ceil(c.time.period / dt * (1.0 - 1e-9)) << ')';
+  }
+  return text.str();
+}
 
 void checkTimeStep(const Case& c, Faults& faults) {
   checkHinge(c, c.insect.wings.right, "wing", faults);

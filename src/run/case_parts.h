@@ -88,6 +88,11 @@ void checkMirrored(const Case& c, const CaseMotion& motion, const InitialValues&
                    Faults& faults);
 /// The time step must resolve the motion: turns of the wing and the swings of a free hinge.
 void checkTimeStep(const Case& c, Faults& faults);
+/// Natural period of a free wing on its hinge, with the quasi-steady added mass about its axis [s];
+/// 0 where the pitch is not free or there is no spring.
+double hingePeriod(const Case& c, const Wing& wing);
+/// How to have steps of at most `dt` [s], for a remedy.
+std::string shorterSteps(const Case& c, double dt);
 /// Start values must belong to free coordinates; returns them completed from the motion at t_start.
 StartValues startValues(const Case& c, const InitialValues& initial, const PrescribedMotion& motion,
                         Faults& faults);

@@ -128,7 +128,10 @@ std::optional<double> Section::parse(const YAML::Node& node, const std::string& 
     return std::nullopt;
   }
   if (!satisfies(value, bound.kind)) {
-    faults_.add(where + " = " + text + unit + ": must be " + boundText(bound.kind) + "; " + remedy);
+    const std::string kind = boundText(bound.kind);
+    const bool finite = std::isfinite(value) || bound.kind == Bound::kAny;
+    faults_.add(where + " = " + text + unit + ": must be " + (finite ? "" : "a finite number ") +
+                kind + "; " + remedy);
     return std::nullopt;
   }
   return value;

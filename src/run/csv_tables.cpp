@@ -56,6 +56,7 @@ void putSides(std::string& row, const CommittedStep& step) {
   put(row, angles.x());
   put(row, angles.z());
   put(row, body.Omega_B);
+  put(row, body.Omega_dot_B);
 }
 
 void endRow(std::string& row) { row.back() = '\n'; }
@@ -92,7 +93,8 @@ const std::string& FlightTable::header() {
     }
     all +=
         ",phi_L,phi_L_dot,phi_L_ddot,psi_L,psi_L_dot,psi_L_ddot,theta_L,theta_L_dot,theta_L_ddot,"
-        "rest_angle_L,fx_L,fy_L,fz_L,mx_L,my_L,mz_L,roll,yaw,p,q,r";
+        "rest_angle_L,fx_L,fy_L,fz_L,mx_L,my_L,mz_L,roll,yaw,p,q,r,p_dot,q_dot,"
+        "r_dot";
     return all;
   }();
   return names;

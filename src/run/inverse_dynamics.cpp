@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <ostream>
 #include <sstream>
 
@@ -14,55 +15,90 @@
 namespace monarch_flight {
 namespace {
 
+/// Columns of a flight.csv, in the order in which requiredAt() takes them.
 const std::vector<std::string>& columns() {
-  static const std::vector<std::string> names = {"t",
-                                                 "x",
-                                                 "y",
-                                                 "z",
-                                                 "vx",
-                                                 "vy",
-                                                 "vz",
-                                                 "ax",
-                                                 "ay",
-                                                 "az",
-                                                 "theta_B",
-                                                 "theta_B_dot",
-                                                 "theta_B_ddot",
-                                                 "theta_R",
-                                                 "theta_R_dot",
-                                                 "theta_R_ddot",
-                                                 "fx",
-                                                 "fy",
-                                                 "fz",
-                                                 "mx",
-                                                 "my",
-                                                 "mz"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = {"t", "x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"};
+    for (const char* name : {"theta_B", "qw", "qx", "qy", "qz"}) all.emplace_back(name);
+    for (const char* name : {"p", "q", "r", "p_dot", "q_dot", "r_dot"}) all.emplace_back(name);
+    for (const char* side : {"", "_L"}) {
+      const std::string pitch = side[0] == '\0' ? "theta_R" : "theta_L";
+      for (const std::string& angle :
+           {std::string("phi") + side, std::string("psi") + side, pitch}) {
+        for (const char* rate : {"", "_dot", "_ddot"}) all.push_back(angle + rate);
+      }
+      for (const char* name : {"rest_angle", "fx", "fy", "fz", "mx", "my", "mz"})
+        all.push_back(std::string(name) + side);
+    }
+    for (const char* name : {"theta_A", "theta_A_dot", "theta_A_ddot"}) all.emplace_back(name);
+    return all;
+  }();
   return names;
 }
 
-Eigen::Vector3d vectorAt(const std::vector<double>& row, std::size_t first) {
-  return {row[first], row[first + 1], row[first + 2]};
+/// The numbers of a row, one after the other.
+class RowReader {
+ public:
+  explicit RowReader(const std::vector<double>& row) : next_(row.begin()) {}
+  double number() { return *next_++; }
+  Coordinate coordinate() {
+    const double q = number(), qd = number();
+    return {q, qd, number()};
+  }
+  Eigen::Vector3d vector() {
+    const double x = number(), y = number();
+    return {x, y, number()};
+  }
+
+ private:
+  std::vector<double>::const_iterator next_;
+};
+
+BodyState bodyAt(RowReader& row) {
+  BodyState body;
+  body.x = row.vector();
+  body.v = row.vector();
+  body.a = row.vector();
+  body.pitch.q = row.number();
+  const double w = row.number();
+  const Eigen::Vector3d v = row.vector();
+  body.q_IB = Quaternion(w, v.x(), v.y(), v.z());
+  body.Omega_B = row.vector();
+  body.Omega_dot_B = row.vector();
+  return body;
 }
 
-RequiredLoads requiredAt(const MultibodyDynamics& dynamics, const Case& c,
-                         const std::vector<double>& row) {
-  const Coordinate pitch{row[10], row[11], row[12]};
-  PrescribedState state = c.motion->at(row[0]);
-  BodyState body = withPitch(state.body, pitch);
-  body.x = vectorAt(row, 1);
-  body.v = vectorAt(row, 4);
-  body.a = vectorAt(row, 7);
-  JointAngles angles = state.angles;
-  const Coordinate theta{row[13], row[14], row[15]};
-  for (Side side : kSides) angles.wings[side].theta = theta;
-  Loads right;
-  right.force_pressure = vectorAt(row, 16);
-  right.moment_pressure = vectorAt(row, 19);
-  const InsectMotion motion = insectMotion(c.insect.beta, body, angles);
-  const Vector15d required = dynamics.inertialForce(motion) - dynamics.gravityForce(motion) -
-                             dynamics.airForce(motion, {right, right});
-  return {row[0],      theta,      required.segment<3>(6), required(13), required(0),
-          required(2), required(4)};
+/// An axial vector in the mirror.
+Eigen::Vector3d mirroredTorque(const Eigen::Vector3d& torque) {
+  return {-torque.x(), torque.y(), -torque.z()};
+}
+
+RequiredLoads requiredAt(const MultibodyDynamics& dynamics, double beta,
+                         const std::vector<double>& numbers) {
+  RowReader row(numbers);
+  RequiredLoads required;
+  required.t = row.number();
+  const BodyState body = bodyAt(row);
+  JointAngles angles;
+  PerWing<Loads> air;
+  for (Side side : kSides) {
+    angles.wings[side].phi = row.coordinate();
+    angles.wings[side].psi = row.coordinate();
+    angles.wings[side].theta = required.wings[side].theta = row.coordinate();
+    required.wings[side].rest_angle = row.number();
+    air[side].force_pressure = row.vector();
+    air[side].moment_pressure = row.vector();
+  }
+  angles.theta_A = row.coordinate();
+  const InsectMotion motion = insectMotion(beta, body, angles);
+  const Vector15d all = dynamics.inertialForce(motion) - dynamics.gravityForce(motion) -
+                        dynamics.airForce(motion, air);
+  required.force = all.segment<3>(0);
+  required.moment = all.segment<3>(3);
+  required.wings.right.torque = all.segment<3>(6);
+  required.wings.left.torque = mirroredTorque(all.segment<3>(9));
+  required.abdomen = all(13);
+  return required;
 }
 
 /// Share of the variance of `torque` that `model` explains.
@@ -71,31 +107,54 @@ double explained(const Eigen::VectorXd& torque, const Eigen::VectorXd& model) {
   return variance > 0.0 ? 1.0 - (torque - model).squaredNorm() / variance : 1.0;
 }
 
-double rms(const std::vector<RequiredLoads>& rows, double RequiredLoads::*value) {
+double rms(const std::vector<RequiredLoads>& rows, Eigen::Vector3d RequiredLoads::*vector,
+           int component) {
   double sum = 0.0;
-  for (const RequiredLoads& row : rows) sum += row.*value * row.*value;
+  for (const RequiredLoads& row : rows) sum += std::pow((row.*vector)(component), 2);
   return std::sqrt(sum / static_cast<double>(rows.size()));
 }
 
-void printSummary(const std::vector<RequiredLoads>& rows, const Case& c, std::ostream& out) {
-  const HingeFit fit = fitHinge(rows);
+/// Where only one wing was solved the flight stays in the plane.
+void printBody(const std::vector<RequiredLoads>& rows, bool mirrored, std::ostream& out) {
+  const auto print = [&](const char* name, Eigen::Vector3d RequiredLoads::*vector, int component,
+                         const char* unit) {
+    char text[60];
+    std::snprintf(text, sizeof text, "%s %.3g %s", name, rms(rows, vector, component), unit);
+    out << text;
+  };
+  const auto force = &RequiredLoads::force, moment = &RequiredLoads::moment;
+  out << "required besides air and gravity, rms: ";
+  print("force x", force, 0, "N, ");
+  if (!mirrored) print("force y", force, 1, "N, ");
+  print("force z", force, 2, "N, ");
+  if (!mirrored) print("roll moment", moment, 0, "N m, ");
+  print("pitch moment", moment, 1, "N m");
+  if (!mirrored) print(", yaw moment", moment, 2, "N m");
+  out << '\n';
+}
+
+void printHinge(const HingeFit& fit, const Wing& wing, const char* of, std::ostream& out) {
   const double kDegrees = 180.0 / M_PI;
-  char text[900];
+  char text[700];
   std::snprintf(
       text, sizeof text,
-      "required besides air and gravity, rms: force x %.3g N, force z %.3g N, pitch moment %.3g N "
-      "m\n"
-      "hinge torque of one wing: rms about its mean %.3g N m, mean power %.3g W\n"
+      "hinge torque of %s wing: rms about its mean %.3g N m, mean power %.3g W\n"
       "  nearest spring:            kappa %.3g N m/rad, theta_0 %.1f deg: explains %.0f %%\n"
       "  nearest spring and damper: kappa %.3g N m/rad, theta_0 %.1f deg, damping %.3g N m s/rad: "
       "explains %.0f %%\n"
       "  the case has               kappa %.3g N m/rad, theta_0 %.1f deg\n",
-      rms(rows, &RequiredLoads::force_x), rms(rows, &RequiredLoads::force_z),
-      rms(rows, &RequiredLoads::pitch), fit.torque_rms, fit.power, fit.spring_kappa,
-      fit.spring_theta_0 * kDegrees, 100.0 * fit.spring_share, fit.kappa, fit.theta_0 * kDegrees,
-      fit.damping, 100.0 * fit.damped_share, c.insect.wings.right.kappa,
-      c.insect.wings.right.theta_0 * kDegrees);
+      of, fit.torque_rms, fit.power, fit.spring_kappa, fit.spring_theta_0 * kDegrees,
+      100.0 * fit.spring_share, fit.kappa, fit.theta_0 * kDegrees, fit.damping,
+      100.0 * fit.damped_share, wing.kappa, wing.theta_0 * kDegrees);
   out << text;
+}
+
+void printSummary(const std::vector<RequiredLoads>& rows, const Case& c, std::ostream& out) {
+  printBody(rows, c.mirrored, out);
+  for (Side side : c.sides()) {
+    const char* of = c.mirrored ? "one" : side == Side::kRight ? "the right" : "the left";
+    printHinge(fitHinge(rows, side), c.insect.wings[side], of, out);
+  }
 }
 
 }  // namespace
@@ -104,35 +163,31 @@ std::vector<RequiredLoads> requiredLoads(const Case& c, const NumericTable& flig
   if (c.insect.bare_wing) {
     throw InputError("insect/kind = bare_wing: inverse dynamics need a body; fly a butterfly");
   }
-  if (!c.mirrored) {
-    throw InputError(
-        "wings = independent: inverse dynamics take both wings to do the same; fly with wings "
-        "mirrored");
-  }
   const NumericTable table = flight.select(columns());
   const MultibodyDynamics dynamics(c.insect, c.gravity);
   std::vector<RequiredLoads> rows;
   rows.reserve(table.rows.size());
-  for (const auto& row : table.rows) rows.push_back(requiredAt(dynamics, c, row));
+  for (const auto& row : table.rows) rows.push_back(requiredAt(dynamics, c.insect.beta, row));
   return rows;
 }
 
-HingeFit fitHinge(const std::vector<RequiredLoads>& rows) {
+HingeFit fitHinge(const std::vector<RequiredLoads>& rows, Side side) {
   const auto n = static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd A(n, 3);
   Eigen::VectorXd torque(n);
   HingeFit fit;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const RequiredLoads& row = rows[static_cast<std::size_t>(i)];
-    A.row(i) << -row.theta_R.q, 1.0, -row.theta_R.qd;
-    torque(i) = row.wing.y();
-    fit.power += torque(i) * row.theta_R.qd / static_cast<double>(n);
+    const HingeLoad& hinge = rows[static_cast<std::size_t>(i)].wings[side];
+    A.row(i) << hinge.rest_angle - hinge.theta.q, 1.0, -hinge.theta.qd;
+    torque(i) = hinge.torque.y();
+    fit.power += torque(i) * hinge.theta.qd / static_cast<double>(n);
   }
   if (n < 3 || A.col(0).maxCoeff() - A.col(0).minCoeff() < 1e-9) {
     throw InputError(
         "inverse dynamics: " + std::to_string(n) +
         " rows, or a wing that does not pitch: a hinge cannot be fitted; give more of a "
-        "flight in which theta_R changes");
+        "flight in which " +
+        (side == Side::kRight ? "theta_R" : "theta_L") + " changes");
   }
   const Eigen::Vector2d spring = A.leftCols(2).colPivHouseholderQr().solve(torque);
   const Eigen::Vector3d damped = A.colPivHouseholderQr().solve(torque);
@@ -149,13 +204,18 @@ HingeFit fitHinge(const std::vector<RequiredLoads>& rows) {
 }
 
 void writeRequiredLoads(const std::vector<RequiredLoads>& rows, std::ostream& out) {
-  out << "t,theta_R,theta_R_dot,wing_x,wing_y,wing_z,abdomen,force_x,force_z,pitch\n";
-  char text[300];
-  for (const RequiredLoads& r : rows) {
-    std::snprintf(text, sizeof text, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", r.t,
-                  r.theta_R.q, r.theta_R.qd, r.wing.x(), r.wing.y(), r.wing.z(), r.abdomen,
-                  r.force_x, r.force_z, r.pitch);
-    out << text;
+  out << "t,theta_R,theta_R_dot,wing_x,wing_y,wing_z,abdomen,force_x,force_z,pitch,"
+         "theta_L,theta_L_dot,wing_x_L,wing_y_L,wing_z_L,force_y,roll,yaw\n";
+  out << std::setprecision(9);
+  for (const RequiredLoads& row : rows) {
+    const auto& [right, left] = row.wings;
+    out << row.t << ',' << right.theta.q << ',' << right.theta.qd;
+    for (double value :
+         {right.torque.x(), right.torque.y(), right.torque.z(), row.abdomen, row.force.x(),
+          row.force.z(), row.moment.y(), left.theta.q, left.theta.qd, left.torque.x(),
+          left.torque.y(), left.torque.z(), row.force.y(), row.moment.x(), row.moment.z()})
+      out << ',' << value;
+    out << '\n';
   }
 }
 

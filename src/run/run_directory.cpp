@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -21,6 +22,40 @@ std::string megabytes(std::uint64_t bytes) {
   return std::to_string((bytes + 999999) / 1000000) + " MB";
 }
 
+/// Of what is solved: cells of the flow, and facets of a picture of pressure, of all wings.
+struct Sizes {
+  std::uint64_t cells = 0, facets = 0;
+};
+
+Sizes sizesOf(const Case& c) {
+  constexpr std::uint64_t kStrips = 64;  // of a wing in quasi-steady air
+  Sizes sizes;
+  for (Side side : c.sides()) {
+    if (c.fluid != FluidKind::kNavierStokes) {
+      sizes.facets += kStrips;
+      continue;
+    }
+    const Grid grid = makeGrid(c.insect.wings[side].planform, c.grid);
+    sizes.cells += static_cast<std::uint64_t>(grid.cells());
+    sizes.facets +=
+        static_cast<std::uint64_t>(std::count(grid.wing.begin(), grid.wing.end(), std::uint8_t{1}));
+  }
+  return sizes;
+}
+
+/// What a run that goes on has written already; its bag is copied.
+std::uint64_t writtenBefore(const std::string& folder) {
+  std::uint64_t bytes = 0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; entry != end && !error;
+       entry.increment(error)) {
+    std::error_code none;
+    const bool bag = entry->path().filename().string().rfind("flight.bag", 0) == 0;
+    if (!bag && entry->is_regular_file(none)) bytes += entry->file_size(none);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 RunDirectory::RunDirectory(const std::string& path, std::uint64_t needed_bytes, bool resume)
@@ -28,6 +63,7 @@ RunDirectory::RunDirectory(const std::string& path, std::uint64_t needed_bytes, 
   prepare(resume);
   std::error_code error;
   const fs::space_info space = fs::space(path_, error);
+  if (resume) needed_bytes -= std::min(needed_bytes, writtenBefore(path_));
   if (!error && space.available < needed_bytes)
     throw InputError(
         "out = " + path_ + ": its disk has " + megabytes(space.available) +
@@ -74,26 +110,31 @@ RunDirectory::~RunDirectory() {
   if (lock_ >= 0) ::close(lock_);
 }
 
+// Bytes as measured (docs/run_files.md), a quarter up: free flights with motion, controller and
+// independent wings in quasi-steady air, and in Navier-Stokes air on the preview grid.
 std::uint64_t estimatedOutputBytes(const Case& c) {
-  constexpr std::uint64_t kRow = 2400, kIterationRows = 10 * 260, kSmallFiles = 100000;
-  constexpr std::uint64_t kBagStep = 20000, kSurface = 150000, kVortices = 800000;
-  constexpr std::uint64_t kFieldCell = 64;  // nine floats and a point of three doubles, packed
-  constexpr std::uint64_t kCheckpoints = 3, kStateCell = 72;  // seven fields with their rims
+  constexpr std::uint64_t kRow = 1600, kIterationRows = 3 * 225, kSmallFiles = 20000;
   const std::uint64_t steps = c.time.steps + std::uint64_t{1};
+  const Sizes sizes = sizesOf(c);
   std::uint64_t bytes = kSmallFiles + c.resolved_yaml.size() + steps * (kRow + kIterationRows);
-  if (c.fluid == FluidKind::kNavierStokes) {
-    std::uint64_t cells = 0;
-    for (Side side : c.sides())
-      cells += static_cast<std::uint64_t>(makeGrid(c.insect.wings[side].planform, c.grid).cells());
-    if (c.output.fields_every > 0) bytes += steps / c.output.fields_every * cells * kFieldCell;
-    if (c.output.checkpoint_every > 0) bytes += kCheckpoints * cells * kStateCell;
+  if (c.output.fields_every > 0) {
+    constexpr std::uint64_t kFieldCell = 64;  // nine floats and a point of three doubles, packed
+    bytes += steps / c.output.fields_every * sizes.cells * kFieldCell;
+  }
+  if (c.output.checkpoint_every > 0) {
+    // The last two, and one that is being written; one at the end, whatever that is.
+    constexpr std::uint64_t kMost = 3, kStateCell = 72, kCheckpoint = 60000;
+    const std::uint64_t one =
+        kCheckpoint + 5 * c.resolved_yaml.size() / 2 + sizes.cells * kStateCell;
+    bytes += std::min(kMost, steps / c.output.checkpoint_every + 1) * one;
   }
   if (!c.output.record) return bytes;
-  bytes += steps * kBagStep;
+  constexpr std::uint64_t kBag = 60000, kBagStep = 1800, kBagFacet = 24, kVortices = 300000;
+  bytes += kBag + steps * kBagStep;
   if (c.output.surface_every > 0)
-    bytes += (steps / c.output.surface_every + 1) * c.sides().count * kSurface;
+    bytes += (steps / c.output.surface_every + 1) * sizes.facets * kBagFacet;
   if (c.fluid == FluidKind::kNavierStokes && c.output.vortices_every > 0)
-    bytes += (steps / c.output.vortices_every + 1) * kVortices;
+    bytes += (steps / c.output.vortices_every + 1) * c.sides().count * kVortices;
   return bytes;
 }
 

@@ -185,6 +185,59 @@ TEST_F(FlappingPlate, NothingIsLeftToCommitAfterAnEvaluationThatThrew) {
   EXPECT_EQ(flow_->evaluate(next()).force(), good.force());
 }
 
+void expectSamePicture(const SurfacePressure& a, const SurfacePressure& b, const char* when) {
+  ASSERT_EQ(a.facets.size(), b.facets.size());
+  for (std::size_t i = 0; i < a.facets.size(); ++i) {
+    ASSERT_EQ(a.facets[i].p_upper, b.facets[i].p_upper) << when;
+    ASSERT_EQ(a.facets[i].p_lower, b.facets[i].p_lower) << when;
+  }
+}
+
+double normalForce(const SurfacePressure& surface) {
+  double force = 0.0;
+  for (const auto& f : surface.facets) force += double(f.p_upper - f.p_lower) * f.dx * f.dy;
+  return force;
+}
+
+TEST_F(FlappingPlate, PicturesAreThoseOfTheCommittedLevel) {
+  advance(3);
+  const Loads loads = flow_->evaluate(next());
+  advance(1);
+  const SurfacePressure committed = flow_->surfacePressure();
+  EXPECT_NEAR(normalForce(committed), loads.force_pressure.z(),
+              1e-5 * std::abs(loads.force_pressure.z()));
+  const std::size_t points = flow_->vortices(1.0, 100000).size();
+  EXPECT_GT(points, 0u);
+  const std::vector<char> state = flow_->save();
+
+  flow_->evaluate(moved(next(), Vector6d::Ones()));
+  expectSamePicture(flow_->surfacePressure(), committed, "after evaluate");
+  EXPECT_THROW(flow_->vortices(1.0, 10), std::logic_error);
+  EXPECT_THROW(flow_->flowField(), std::logic_error);
+  const std::vector<char> between = flow_->save();
+  advance(1);
+  EXPECT_NE(normalForce(flow_->surfacePressure()), normalForce(committed));
+
+  const auto other = makeNavierStokes(Planform::ellipse(1.0, 2.0, 0.3), thinAir(), smallGrid());
+  for (FluidModel* model : {flow_.get(), other.get()}) {
+    model->restore(state);
+    expectSamePicture(model->surfacePressure(), committed, "after restore");
+    EXPECT_EQ(model->vortices(1.0, 100000).size(), points);
+    model->restore(between);
+    expectSamePicture(model->surfacePressure(), committed, "after restore of a step begun");
+    EXPECT_THROW(model->vortices(1.0, 10), std::logic_error);
+  }
+  flow_->start(flapping(0), kDt);
+  EXPECT_EQ(normalForce(flow_->surfacePressure()), 0.0);
+  EXPECT_NO_THROW(flow_->vortices(1.0, 10));
+}
+
+TEST(NavierStokes, AFlowThatWasNotStartedCannotGoOn) {
+  const auto flow = makeNavierStokes(Planform::ellipse(1.0, 2.0, 0.3), thinAir(), smallGrid());
+  EXPECT_THROW(flow->evaluate(flapping(0)), std::logic_error);
+  EXPECT_THROW(flow->commit(), std::logic_error);
+}
+
 TEST(NavierStokes, ACourantNumberAboveTheLimitEndsTheRun) {
   GridSettings s = smallGrid();
   s.courant_limit = 0.01;

@@ -33,6 +33,37 @@ TEST(QuasiSteadyContract, EvaluationIsAPureFunctionAndStateRestores) {
   EXPECT_TRUE(model->vortices(0.0, 10).empty());
 }
 
+TEST(QuasiSteadyContract, PicturesAreThoseOfTheCommittedLevel) {
+  const auto model = makeQuasiSteady(Planform::ellipse(0.03, 0.06, 0.3), air(), kSane);
+  const auto pressure = [](const FluidModel& one) {
+    std::vector<float> all;
+    for (const auto& f : one.surfacePressure().facets) all.push_back(f.p_upper);
+    return all;
+  };
+  EXPECT_THROW(model->evaluate(translation(1.0, 0.3)), std::logic_error);  // not started
+  EXPECT_THROW(model->commit(), std::logic_error);
+  model->start(WingMotion{}, 1e-3);
+  model->evaluate(translation(1.0, 0.3));
+  model->commit();
+  const std::vector<float> committed = pressure(*model);
+  const std::vector<char> state = model->save();
+  model->evaluate(translation(2.0, 0.5));
+  EXPECT_EQ(pressure(*model), committed);
+  WingMotion bad = translation(1.0, 0.3);
+  bad.v_W.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(model->evaluate(bad), NumericalError);
+  EXPECT_EQ(pressure(*model), committed);
+  model->evaluate(translation(2.0, 0.5));
+  model->commit();
+  EXPECT_NE(pressure(*model), committed);
+  const auto other = makeQuasiSteady(Planform::ellipse(0.03, 0.06, 0.3), air(), kSane);
+  for (FluidModel* one : {model.get(), other.get()}) {
+    one->restore(state);
+    EXPECT_EQ(pressure(*one), committed);
+    EXPECT_THROW(one->commit(), std::logic_error);
+  }
+}
+
 TEST(QuasiSteadyContract, LoadOperatorIsTheJacobianOfTheLoads) {
   std::mt19937 generator(23);
   for (auto variant : {kSane, kWhitney}) {

@@ -209,7 +209,8 @@ std::string csvFault(const std::string& text) {
 TEST(Csv, SaysThatTheSeparatorMustBeAComma) {
   for (const auto& [text, word] :
        {std::pair{"t;x\n0;1\n", "semicolons"}, std::pair{"t;x\n0,5;1,5\n", "semicolons"},
-        std::pair{"# units\nt\tx\n0\t1\n", "tabs"}, std::pair{"t x\n0 1\n", "blanks"}}) {
+        std::pair{"# units\nt\tx\n0\t1\n", "tabs"}, std::pair{"t x\n0 1\n", "blanks"},
+        std::pair{"t|x\n0|1\n", "bars"}}) {
     const std::string fault = csvFault(text);
     expectHas(fault, "a.csv: header = 't");
     expectHas(fault, std::string("must be separated by commas, not ") + word);
@@ -217,6 +218,9 @@ TEST(Csv, SaysThatTheSeparatorMustBeAComma) {
   }
   expectHas(csvFault("t,x\n0,1\n0,5;1,5\n"), "row 2 (line 3) = '0': columns must be separated");
   expectHas(csvFault("t,x\n0\t1\n"), "row 1 (line 2) = '0\t1': columns must be separated");
+  expectHas(csvFault("t,x\n0,5,1,5\n"),
+            "has 4 values: must be 2 as in the header; commas separate columns, so numbers need a "
+            "decimal point");
   EXPECT_EQ(csvFault("t,\tthe place\n0,\t1\n"), "");
 }
 

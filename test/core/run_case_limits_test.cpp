@@ -121,6 +121,15 @@ TEST_F(CaseTest, FlapsAreCountedInWholeSteps) {
     for (const std::string& remark : runRemarks(c, steps)) remarks += remark;
     EXPECT_EQ(remarks.find("remainder") != std::string::npos, left > 0.0) << remarks;
   }
+  for (const char* one : {"1e0", "+1", "1.", "01", "0.1e1", "10E-1"}) {
+    EXPECT_EQ(loadCase("climb_printed", {{"flaps", one}, {"fluid", "quasi_steady"}}, CONFIG_DIR)
+                  .time.steps,
+              500u)
+        << one;
+  }
+  for (const char* bad : {"0", "-1", "1e400", "inf", "nan"})
+    expectHas(faults("climb_printed", {{"flaps", bad}}), std::string("time/flaps = ") + bad);
+  expectHas(faults("climb_printed", {{"flaps", "1e400"}}), "must be a finite number > 0");
   expectHas(faults("climb_printed", {{"flaps", "0.001"}}), "time/flaps amounts to 0.5 steps: must be 1 to");
 }
 
@@ -154,6 +163,36 @@ TEST_F(CaseTest, AHingeTooStiffForTheTimeStepIsRefused) {
   std::string led = replaced(monarch(fourier("[1.3, 0, -0.562]")), "monarch_paper",
                              "monarch_paper, wing: {kappa: 700}");
   EXPECT_EQ(faults(write("led.yaml", replaced(led, "wing_pitch: true", "wing_pitch: false"))), "");
+}
+
+TEST_F(CaseTest, AStepThatIsCoarseForTheHingeIsRemarked) {
+  const auto remarks = [&](const std::string& more, const std::string& wings) {
+    const std::string text =
+        replaced(monarch(fourier("[1.3, 0, -0.562]")), "monarch_paper", "monarch_paper" + more);
+    const Case c = loadCase(write("coarse.yaml", text + wings), {}, CONFIG_DIR);
+    std::string all;
+    for (const std::string& remark : runRemarks(c, c.time.steps)) all += remark;
+    return all;
+  };
+  // 10 steps at 0.155 N m/rad.
+  const std::string text = remarks(", wing: {kappa: 0.07}", "");
+  expectHas(text, "(insect/wing/kappa) in 0.00292 s, which has only 14.9 time steps");
+  expectHas(text, "about 4.51 % off; for 1 % take dt <= ");
+  EXPECT_NEAR(numberAfter(text, "steps_per_flap >= "), 500 * 30 / 14.9, 2.0);
+  EXPECT_NE(remarks(", wing: {kappa: 0.0175}", ""), "");
+  EXPECT_EQ(remarks(", wing: {kappa: 0.017}", ""), "");
+  EXPECT_EQ(remarks("", ""), "");
+  expectHas(remarks(", left_wing: {kappa: 0.07}", "wings: independent\n"),
+            "(insect/left_wing/kappa) in 0.00292 s");
+}
+
+TEST_F(CaseTest, AStiffHingeOfOneWingIsRefused) {
+  const std::string text = replaced(monarch(fourier("[1.3, 0, -0.562]")), "monarch_paper",
+                                    "monarch_paper, left_wing: {kappa: 700}") +
+                           "wings: independent\n";
+  const std::string fault = faults(write("stiff.yaml", text));
+  expectHas(fault, "insect/left_wing/kappa = 700 N m/rad: the free wing swings in 2.92086e-05 s");
+  EXPECT_EQ(fault.find("insect/wing/kappa"), std::string::npos) << fault;
 }
 
 TEST_F(CaseTest, AWingThatTurnsTooFarInAStepIsRefused) {

@@ -31,7 +31,7 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
       "applied_differential_amplitude,applied_differential_flapping,applied_differential_deviation,"
       "applied_differential_rest_angle,phi_L,phi_L_dot,phi_L_ddot,psi_L,psi_L_dot,psi_L_ddot,"
       "theta_L,theta_L_dot,theta_L_ddot,rest_angle_L,fx_L,fy_L,fz_L,mx_L,my_L,mz_L,roll,yaw,p,q,"
-      "r");
+      "r,p_dot,q_dot,r_dot");
   const double b = step.interface.body.pitch.q, r = step.interface.theta.right.q;
   const double l = step.interface.theta.left.q;
   const std::vector<double> expected = {step.t,  step.interface.body.x[0],
@@ -83,7 +83,9 @@ TEST_F(RunFiles, FlightTableHasTheNamedColumnsAndEveryBit) {
                                         40.125,  50.25,
                                         60.375,  0,
                                         0,       0,
-                                        1,       0};
+                                        1,       0,
+                                        0,       100,
+                                        0};
   const auto row = numbers(rows[2]);
   ASSERT_EQ(row.size(), expected.size());
   for (std::size_t i = 0; i < row.size(); ++i) {

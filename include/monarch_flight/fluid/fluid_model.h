@@ -63,7 +63,8 @@ class FluidModel {
   /// Starts from air at rest with the wing in this motion at time level 0;
   /// `dt` is the time step of all that follows [s].
   virtual void start(const WingMotion& motion, double dt) = 0;
-  /// Loads at level n+1 if the wing moves to `next`. Throws NumericalError on a non-finite result.
+  /// Loads at level n+1 if the wing moves to `next`. Throws NumericalError on a non-finite result,
+  /// std::logic_error before `start` or `restore`.
   virtual Loads evaluate(const WingMotion& next) = 0;
   /// As `evaluate`, the same loads bit for bit, with their Jacobian at `next`.
   virtual Loads linearise(const WingMotion& next, LoadOperator& jacobian) = 0;
@@ -81,8 +82,11 @@ class FluidModel {
   virtual Matrix6d addedMass() const = 0;
   virtual FluidReport report() const = 0;
   virtual long cells() const = 0;  ///< 0 when there is no grid
+  /// Of the committed level, also between evaluate and commit and after restore; zero after start.
   virtual SurfacePressure surfacePressure() const = 0;
-  /// At most `limit` points with Q > q_threshold; empty where there is no field.
+  /// Of the committed level, as `flowField`. Velocities stand in the axes of the next level while
+  /// it is computed: both throw std::logic_error between evaluate and commit. At most `limit`
+  /// points with Q > q_threshold; empty where there is no field.
   virtual std::vector<VortexPoint> vortices(double q_threshold, int limit) const = 0;
   /// The committed level as a whole; null where there is no field.
   virtual std::shared_ptr<const FlowField> flowField() const { return nullptr; }

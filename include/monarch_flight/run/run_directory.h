@@ -29,7 +29,8 @@ class RunDirectory {
   int lock_ = -1;  // descriptor of the folder
 };
 
-/// Upper estimate of what the run writes: tables, and the bag when it is recorded [bytes].
+/// Upper estimate of what the run writes: tables, checkpoints, fields, and the bag when it is
+/// recorded; less than twice what usual flights write [bytes].
 std::uint64_t estimatedOutputBytes(const Case& c);
 
 }  // namespace monarch_flight

@@ -38,6 +38,7 @@ class BladeElement final : public FluidModel {
         next_jump_(strips_.size(), 0.0) {}
 
   void start(const WingMotion& motion, double) override {
+    started_ = false;
     loadsOf(motion);
     evaluated_ = true;
     commit();
