@@ -19,7 +19,7 @@ foreach(source ${ros_tests})
     URDF_DIR="${CMAKE_CURRENT_SOURCE_DIR}/urdf")
   add_dependencies(ros_${name} nodes)
   add_test(NAME ros_${name}
-    COMMAND ${PYTHON_EXECUTABLE} ${ROS_TEST_RUNNER} --limit 170 $<TARGET_FILE:ros_${name}>)
-  set_tests_properties(ros_${name} PROPERTIES TIMEOUT 180 LABELS ros
+    COMMAND ${PYTHON_EXECUTABLE} ${ROS_TEST_RUNNER} --limit ${TEST_LIMIT} $<TARGET_FILE:ros_${name}>)
+  set_tests_properties(ros_${name} PROPERTIES TIMEOUT ${TEST_LIMIT} LABELS ros
     ENVIRONMENT "${ROS_TEST_ENVIRONMENT}")
 endforeach()

@@ -1,5 +1,9 @@
 # Core tests: one executable per file test/core/<layer>_<subject>_test.cpp, run by ctest.
 find_package(GTest REQUIRED)
+set(TEST_LIMIT 300)  # s
+if(MONARCH_SANITIZERS)
+  set(TEST_LIMIT 1500)
+endif()
 file(GLOB core_tests CONFIGURE_DEPENDS test/core/*_test.cpp)
 foreach(source ${core_tests})
   get_filename_component(name ${source} NAME_WE)
@@ -10,7 +14,7 @@ foreach(source ${core_tests})
   target_compile_definitions(${name} PRIVATE TEST_DATA_DIR="${CMAKE_CURRENT_SOURCE_DIR}/test/data"
     CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config")
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 300 ENVIRONMENT "OPENBLAS_NUM_THREADS=1")
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${TEST_LIMIT} ENVIRONMENT "OPENBLAS_NUM_THREADS=1")
 endforeach()
 
 # The flow solver on 1 to 4 processes.

@@ -60,7 +60,7 @@ class Key:
         if self.type == "truth":
             return value in ("true", "false")
         if self.type == "number":
-            signed = NUMBER if self.above is not None and self.above >= 0 else "[-+]?" + NUMBER
+            signed = r"\+?" + NUMBER if self.above is not None and self.above >= 0 else "[-+]?" + NUMBER
             return bool(re.fullmatch(signed, value)) and abs(float(value)) < float("inf") and (
                 self.above is None or float(value) > self.above)
         if self.type == "count":

@@ -24,6 +24,7 @@ LEFT = ("phi_L phi_L_dot phi_L_ddot psi_L psi_L_dot psi_L_ddot theta_L theta_L_d
 COLUMNS += LEFT + "roll yaw p q r".split()
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/joint_states", "/diagnostics", "/monarch_flight/case",
+    "/monarch_flight/model",
     "/monarch_flight/state", "/monarch_flight/odom", "/monarch_flight/path",
     "/monarch_flight/wind", "/monarch_flight/right_wing/wrench", "/monarch_flight/left_wing/wrench",
     "/monarch_flight/right_wing/pressure", "/monarch_flight/iterations"}

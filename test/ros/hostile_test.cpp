@@ -209,7 +209,8 @@ TEST_F(Nodes, AStrangerCannotPlayTheCoordinator) {
   fluid = start("fluid");
   flight = start("flight");
   EXPECT_EQ(0, coordinator->wait(40.0)) << coordinator->output();
-  EXPECT_EQ(1u, summary()["ignored_messages"]["forged"]);
+  // More than once where a slow node has subscribed anew: the stranger's hello is latched.
+  EXPECT_GE(summary()["ignored_messages"]["forged"], 1u);
 }
 
 TEST_F(Nodes, WithoutATokenAPersonIsWarned) {
@@ -256,10 +257,13 @@ TEST_F(Nodes, ListenOnTheLoopbackAddressOnly) {
   unsetenv("ROS_IP");
   wing = start("wing");
   setenv("ROS_HOSTNAME", "localhost", 1);
-  ros::WallDuration(2.0).sleep();
+  std::vector<std::string> addresses;  // messages and XML-RPC
+  for (int i = 0; i < 300 && addresses.size() < 2; ++i) {
+    ros::WallDuration(0.1).sleep();
+    addresses = listeningAddresses(wing->pid());
+  }
   ASSERT_TRUE(wing->running()) << wing->output();
-  const std::vector<std::string> addresses = listeningAddresses(wing->pid());
-  EXPECT_GE(addresses.size(), 2u);  // messages and XML-RPC
+  EXPECT_GE(addresses.size(), 2u);
   for (const std::string& address : addresses) EXPECT_EQ("0100007F", address);
 }
 
