@@ -6,6 +6,10 @@ set(ROS_TEST_RUNNER ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/with_master.py)
 set(ROS_TEST_ENVIRONMENT "OPENBLAS_NUM_THREADS=1"
   "PYTHONPATH=${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION}:$ENV{PYTHONPATH}")
 
+if(MONARCH_SANITIZERS)  # these are slow
+  list(APPEND ROS_TEST_ENVIRONMENT "MONARCH_HOSTILE_MESSAGES=60")
+endif()
+
 file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
 foreach(source ${ros_tests})
   get_filename_component(name ${source} NAME_WE)
