@@ -3,6 +3,7 @@
 find_package(GTest REQUIRED)
 find_package(tf2 REQUIRED)
 set(ROS_TEST_RUNNER ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/with_master.py)
+math(EXPR WITH_MASTER_LIMIT "${TEST_LIMIT} + 20")
 set(ROS_TEST_ENVIRONMENT "OPENBLAS_NUM_THREADS=1"
   "PYTHONPATH=${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION}:$ENV{PYTHONPATH}")
 
@@ -24,6 +25,6 @@ foreach(source ${ros_tests})
   add_dependencies(ros_${name} nodes)
   add_test(NAME ros_${name}
     COMMAND ${PYTHON_EXECUTABLE} ${ROS_TEST_RUNNER} --limit ${TEST_LIMIT} $<TARGET_FILE:ros_${name}>)
-  set_tests_properties(ros_${name} PROPERTIES TIMEOUT ${TEST_LIMIT} LABELS ros
+  set_tests_properties(ros_${name} PROPERTIES TIMEOUT ${WITH_MASTER_LIMIT} LABELS ros
     ENVIRONMENT "${ROS_TEST_ENVIRONMENT}")
 endforeach()

@@ -1,9 +1,5 @@
 # Core tests: one executable per file test/core/<layer>_<subject>_test.cpp, run by ctest.
 find_package(GTest REQUIRED)
-set(TEST_LIMIT 300)  # s
-if(MONARCH_SANITIZERS)
-  set(TEST_LIMIT 1500)
-endif()
 file(GLOB core_tests CONFIGURE_DEPENDS test/core/*_test.cpp)
 foreach(source ${core_tests})
   get_filename_component(name ${source} NAME_WE)
