@@ -71,6 +71,12 @@ class Made(unittest.TestCase):
             for name in filter(None, sum(wanted, ())):
                 self.assertLess(names.index(name), names.index(node.get("name")))
 
+    def test_launch_files_say_what_is_optional_and_what_it_means(self):
+        for path in (ROOT / "launch").glob("*.launch"):
+            for node in xml.etree.ElementTree.parse(path).getroot().iter("arg"):
+                if "default" in node.attrib:  # roslaunch --ros-args calls an empty one required
+                    self.assertTrue(node.get("default"), (path.name, node.get("name")))
+
     def test_missing_marks_are_told(self):
         with self.assertRaisesRegex(ValueError, "marks of the block 'keys'"):
             key_texts.renewed("no marks", "README.md", TABLE)
