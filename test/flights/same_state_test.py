@@ -21,7 +21,7 @@ COLUMNS += [kind + name for kind in ("command_", "applied_") for name in COMMAND
 # Of the left wing, as its mirror image, and of a body that leaves its plane.
 LEFT = ("phi_L phi_L_dot phi_L_ddot psi_L psi_L_dot psi_L_ddot theta_L theta_L_dot theta_L_ddot "
         "rest_angle_L fx_L fy_L fz_L mx_L my_L mz_L").split()
-COLUMNS += LEFT + "roll yaw p q r".split()
+COLUMNS += LEFT + "roll yaw p q r p_dot q_dot r_dot".split()
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/joint_states", "/diagnostics", "/monarch_flight/case",
     "/monarch_flight/model",
