@@ -1,4 +1,5 @@
-"""What is made from config/keys.yaml: arguments and parameters of launch/flight.launch, and the table of README.md."""
+"""What is made from config/keys.yaml: arguments and parameters of launch/flight.launch, the
+arguments of launch/climb.launch, and the table of README.md."""
 import re
 from xml.sax.saxutils import quoteattr
 
@@ -12,6 +13,11 @@ def launch_arguments(table):
     names = [name for name in wanted if name not in later] + [name for name in wanted if name in later]
     return "".join(f"  <arg name={quoteattr(name)} default={attribute(wanted[name].launch or 'auto')}\n"
                    f"       doc={attribute(launch_doc(wanted[name]))}/>\n" for name in names)
+
+
+def climb_arguments(table):
+    """The same of launch/climb.launch with its own case: an include may give only what the file declares."""
+    return launch_arguments(table).replace("'climb_controlled'", "'climb'")
 
 
 def attribute(text):
@@ -59,6 +65,7 @@ def manual(table):
 
 BLOCKS = (("launch/flight.launch", "arguments", launch_arguments),
           ("launch/flight.launch", "parameters", launch_parameters),
+          ("launch/climb.launch", "arguments", climb_arguments),
           ("README.md", "keys", manual))
 
 
