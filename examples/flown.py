@@ -21,7 +21,8 @@ def siblings():
                 state, parent = file.read().rpartition(")")[2].split()[:2]
             if int(parent) == os.getppid() and state != "Z":
                 with open(f"/proc/{pid}/cmdline", encoding="utf-8", errors="replace") as file:
-                    found |= {os.path.basename(word) for word in file.read().split("\0")}
+                    # The program, or the script behind its interpreter.
+                    found |= {os.path.basename(word) for word in file.read().split("\0")[:2]}
         except (OSError, ValueError):
             continue  # it has just ended
     return found & NODES
@@ -36,9 +37,11 @@ def wait_while(alive, limit=float("inf")):
 def main():
     signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
-    wait_while(lambda: "coordinator" not in siblings(), BEGIN)
+    leaders = []
+    wait_while(lambda: not leaders and not leaders.extend(LEADERS & siblings()), BEGIN)
     wait_while(lambda: LEADERS & siblings())
-    wait_while(siblings, LEAVE)
+    # A leader that was never seen is on another machine, or was refused: the other nodes end with it.
+    wait_while(siblings, LEAVE if leaders else float("inf"))
 
 
 if __name__ == "__main__":
