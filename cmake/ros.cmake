@@ -73,8 +73,8 @@ set_target_properties(monarch_ros_io PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS monarch_ros_io LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 set_target_properties(trim inverse_dynamics PROPERTIES INSTALL_RPATH "$ORIGIN/..")
 install(TARGETS ${NODE_TARGETS} trim inverse_dynamics RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(PROGRAMS examples/drag_fluid.py examples/climb_guidance.py examples/joy_guidance.py examples/joint_sliders.py
-  examples/flown.py
+install(PROGRAMS examples/drag_fluid.py examples/climb_guidance.py examples/joy_guidance.py
+  scripts/flown.py scripts/joint_sliders.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/monarch_flight/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
   FILES_MATCHING PATTERN "*.h")

@@ -14,7 +14,7 @@ endif()
 file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
 foreach(source ${ros_tests})
   get_filename_component(name ${source} NAME_WE)
-  add_executable(ros_${name} ${source})
+  add_executable(ros_${name} ${source} test/ros/main.cpp)
   target_link_libraries(ros_${name} PRIVATE monarch_ros_io ${tf2_LIBRARIES} nlohmann_json::nlohmann_json
     GTest::gtest)
   target_include_directories(ros_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)

@@ -1,14 +1,18 @@
 """What is made from config/keys.yaml: arguments and parameters of launch/flight.launch, the
 arguments of launch/climb.launch, and the table of README.md."""
+import dataclasses
 import re
 from xml.sax.saxutils import quoteattr
 
 MADE = "made from config/keys.yaml by: monarch keys write:=true"
 
 
-def launch_arguments(table):
-    """The <arg> lines; an argument stands behind those that its default names."""
+def launch_arguments(table, case=None):
+    """The <arg> lines; an argument stands behind those that its default names. `case`: instead of the default case."""
     wanted = table.of("launch")
+    if case:
+        usual = wanted["case"]
+        wanted["case"] = dataclasses.replace(usual, launch=usual.launch.replace(usual.default, case))
     later = {name for name, key in wanted.items() if "arg('" in key.launch}
     names = [name for name in wanted if name not in later] + [name for name in wanted if name in later]
     return "".join(f"  <arg name={quoteattr(name)} default={attribute(wanted[name].launch or 'auto')}\n"
@@ -17,7 +21,7 @@ def launch_arguments(table):
 
 def climb_arguments(table):
     """The same of launch/climb.launch with its own case: an include may give only what the file declares."""
-    return launch_arguments(table).replace("'climb_controlled'", "'climb'")
+    return launch_arguments(table, case="climb")
 
 
 def attribute(text):

@@ -7,13 +7,10 @@
 #include "monarch_flight/math/rotation.h"
 
 namespace monarch_flight {
-namespace {
 
-/// Across the plane y = 0; 0 - a, because -0.0 would not be the 0.0 of a symmetric flight.
+// 0 - a, because -0.0 would not be the 0.0 of a symmetric flight.
 Eigen::Vector3d polarImage(const Eigen::Vector3d& a) { return {a.x(), 0.0 - a.y(), a.z()}; }
 Eigen::Vector3d axialImage(const Eigen::Vector3d& a) { return {0.0 - a.x(), a.y(), 0.0 - a.z()}; }
-
-}  // namespace
 
 BodyState withPitch(BodyState body, const Coordinate& pitch) {
   body.pitch = pitch;

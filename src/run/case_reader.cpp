@@ -7,15 +7,10 @@
 #include <regex>
 
 #include "monarch_flight/math/errors.h"
+#include "run/words.h"
 
 namespace monarch_flight {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 bool satisfies(double value, Bound::Kind kind) {
   if (!std::isfinite(value)) return false;

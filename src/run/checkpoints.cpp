@@ -4,17 +4,12 @@
 #include "monarch_flight/run/csv_tables.h"
 #include "monarch_flight/run/federation.h"
 #include "run/case_difference.h"
+#include "run/words.h"
 
 namespace monarch_flight {
 namespace {
 
 constexpr char kCoordinator[] = "coordinator";
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all;
-}
 
 }  // namespace
 

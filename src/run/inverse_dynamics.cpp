@@ -68,11 +68,6 @@ BodyState bodyAt(RowReader& row) {
   return body;
 }
 
-/// An axial vector in the mirror.
-Eigen::Vector3d mirroredTorque(const Eigen::Vector3d& torque) {
-  return {-torque.x(), torque.y(), -torque.z()};
-}
-
 RequiredLoads requiredAt(const MultibodyDynamics& dynamics, double beta,
                          const std::vector<double>& numbers) {
   RowReader row(numbers);
@@ -96,7 +91,7 @@ RequiredLoads requiredAt(const MultibodyDynamics& dynamics, double beta,
   required.force = all.segment<3>(0);
   required.moment = all.segment<3>(3);
   required.wings.right.torque = all.segment<3>(6);
-  required.wings.left.torque = mirroredTorque(all.segment<3>(9));
+  required.wings.left.torque = axialImage(all.segment<3>(9));
   required.abdomen = all(13);
   return required;
 }

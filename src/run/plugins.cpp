@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "monarch_flight/math/errors.h"
+#include "run/words.h"
 
 namespace monarch_flight {
 namespace {
@@ -26,12 +27,6 @@ PluginSources& sources() {
 Named fluidOf(const Case& c) { return {"fluid", "solver", c.fluid_plugin}; }
 Named guidanceOf(const Case& c) { return {"guidance", "type", c.guidance.plugin}; }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
-}
-
 template <class Plugin>
 std::shared_ptr<Plugin> load(const PluginSource<Plugin>& source, const Named& named) {
   if (!source.load)
@@ -42,7 +37,7 @@ std::shared_ptr<Plugin> load(const PluginSource<Plugin>& source, const Named& na
     const std::vector<std::string> known = source.known();
     if (std::find(known.begin(), known.end(), named.choice.name) == known.end())
       throw InputError(named.fault(
-          "there is no such plugin: known are " + joined(known) +
+          "there is no such plugin: known are " + (known.empty() ? "none" : joined(known)) +
           "; correct the name, or build its package, source the setup.bash of that workspace, and "
           "see that its package.xml exports it (docs/extending.md)"));
     return source.load(named.choice.name);

@@ -1,6 +1,7 @@
-/* Preloaded into a process, shifts its real-time clock by the seconds that the file CLOCK_SHIFT_FILE
-   holds, now and whenever that changes (scripts/break_it). Every other clock stays as it is, and so
-   does the kernel's: a wait for a moment of the real-time clock would be wrong by the whole shift. */
+/* Preloaded into a process, shifts its real-time clock by the seconds that the file
+   CLOCK_SHIFT_FILE holds, now and whenever that changes (monarch break-it). Every other clock stays
+   as it is, and so does the kernel's: a wait for a moment of the real-time clock would be wrong by
+   the whole shift. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>

@@ -302,8 +302,3 @@ TEST(FullDisk, LeavesTheBagUnderItsActiveName) {
 
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -1,17 +1,15 @@
 #include "monarch_flight/ros_io/conversions.h"
 
 #include <gtest/gtest.h>
-#include <ros/serialization.h>
 
 #include <cstring>
 #include <limits>
 #include <random>
 
 #include "monarch_flight/coupling/interface_values.h"
-#include "monarch_flight/math/rotation.h"
 #include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/ros_io/step_conversions.h"
-#include "monarch_flight/viz/frames.h"
+#include "ros/wire.h"
 
 namespace monarch_flight {
 namespace {
@@ -49,15 +47,6 @@ Loads anyLoads() { return {anyVector(), anyVector(), anyVector(), anyVector()}; 
 template <class T>
 void expectBitwise(const T& a, const T& b) {
   EXPECT_EQ(0, std::memcmp(&a, &b, sizeof(T)));
-}
-
-// Through the bytes of the wire.
-template <class Message>
-Message overTheWire(const Message& message) {
-  const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
-  Message out;
-  ros::serialization::deserializeMessage(bytes, out);
-  return out;
 }
 
 PrescribedState anyPrescribed() {
@@ -161,70 +150,6 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
     expectBitwise(reply.vortices[0], back.vortices[0]);
     expectBitwise(reply.vortices[1], back.vortices[1]);
   }
-}
-
-float anyFloat() {
-  while (true) {
-    const auto bits = static_cast<std::uint32_t>(generator());
-    float value;
-    std::memcpy(&value, &bits, sizeof value);
-    if (std::isfinite(value)) return value;
-  }
-}
-
-FlowField smallFlow() {
-  FlowField flow;
-  flow.x = {0, 1, 2};
-  flow.y = {0, 0.1};
-  flow.z = {-1, 0, 0.5, 7};
-  for (int n = 0; n < 6; ++n) {
-    for (int c = 0; c < 3; ++c) {
-      flow.velocity.push_back(anyFloat());
-      flow.vorticity.push_back(anyFloat());
-    }
-    flow.pressure.push_back(anyFloat());
-    flow.q.push_back(anyFloat());
-  }
-  flow.wing = {{1, 2, 3, 4, 5, 6, {7, 8}, {9, 10}}, {-1, -2, -3, -4, -5, -6, {-7, -8}, {-9, -10}}};
-  return flow;
-}
-
-TEST(Conversions, AFlowCrossesBitForBit) {
-  const FlowField flow = smallFlow();
-  Reply reply;
-  reply.flow = std::make_shared<FlowField>(flow);
-  const ParticipantReply message = overTheWire(toMessage(reply));
-  EXPECT_EQ("", problem(message));
-  const Reply back = fromMessage(message);
-  ASSERT_NE(nullptr, back.flow);
-  EXPECT_EQ(flow.x, back.flow->x);
-  EXPECT_EQ(flow.y, back.flow->y);
-  EXPECT_EQ(flow.z, back.flow->z);
-  EXPECT_EQ(flow.velocity, back.flow->velocity);
-  EXPECT_EQ(flow.vorticity, back.flow->vorticity);
-  EXPECT_EQ(flow.pressure, back.flow->pressure);
-  EXPECT_EQ(flow.q, back.flow->q);
-  ASSERT_EQ(2u, back.flow->wing.size());
-  EXPECT_EQ(0,
-            std::memcmp(flow.wing.data(), back.flow->wing.data(), 2 * sizeof(FlowField::WingFace)));
-  EXPECT_EQ(nullptr, fromMessage(toMessage(Reply())).flow);
-}
-
-TEST(Conversions, AFlowThatDoesNotFitItsGridIsNamed) {
-  Reply reply;
-  FlowField flow = smallFlow();
-  flow.pressure.pop_back();
-  reply.flow = std::make_shared<FlowField>(flow);
-  EXPECT_EQ("a flow whose arrays do not fit its 6 cells", problem(toMessage(reply)));
-  flow = smallFlow();
-  flow.q[1] = std::numeric_limits<float>::quiet_NaN();
-  reply.flow = std::make_shared<FlowField>(flow);
-  EXPECT_EQ("a flow that is not finite", problem(toMessage(reply)));
-  reply.flow = std::make_shared<FlowField>(smallFlow());
-  ParticipantReply twice = toMessage(reply);
-  EXPECT_EQ("", problem(twice));
-  twice.flow.push_back(twice.flow.front());
-  EXPECT_EQ("2 flows, at most one fits", problem(twice));
 }
 
 TEST(Conversions, IterationRecordsCrossBitForBit) {
@@ -336,36 +261,5 @@ TEST(Conversions, NonFiniteStatesAreSeenInEveryMember) {
   }
 }
 
-TEST(Frames, WorldIsEastNorthUp) {
-  EXPECT_EQ(Eigen::Vector3d(2, 1, -3), nedToEnu() * Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(Eigen::Vector3d(1, -2, -3), frdToFlu() * Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(1.0, nedToEnu().determinant());
-  EXPECT_EQ(1.0, frdToFlu().determinant());
-}
-
-TEST(Frames, NoseUpTurnsBaseLinkUpwards) {
-  BodyState body;
-  body.q_IB = rotationY(0.3);  // pitch up in x forward, y right, z down
-  const Eigen::Vector3d nose = baseLinkAttitude(body) * Eigen::Vector3d::UnitX();
-  EXPECT_NEAR(0.0, nose.x(), 1e-15);            // east
-  EXPECT_NEAR(std::cos(0.3), nose.y(), 1e-15);  // north
-  EXPECT_NEAR(std::sin(0.3), nose.z(), 1e-15);  // up
-}
-
-TEST(Stamps, StartAtOneSecondAndDoNotDrift) {
-  TimeGrid time;
-  time.dt = 1.0 / 10.2 / 1000.0;
-  EXPECT_EQ(ros::Time(1, 0), stampOf(0, time));
-  // 10.2 million steps of 1/10200 s are 1000 s.
-  EXPECT_EQ(ros::Time(1001, 0), stampOf(10200000, time));
-  time.dt = 0.25;
-  EXPECT_EQ(ros::Time(1, 750000000), stampOf(3, time));
-}
-
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

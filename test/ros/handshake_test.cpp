@@ -151,10 +151,3 @@ TEST_F(Lockstep, WhoComesAfterTheOtherHasSubscribedAnewIsFound) {
 
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "handshake_test");
-  ros::NodeHandle keep;
-  return RUN_ALL_TESTS();
-}

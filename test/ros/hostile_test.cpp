@@ -269,10 +269,3 @@ TEST_F(Nodes, ListenOnTheLoopbackAddressOnly) {
 
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "hostile_test");
-  ros::NodeHandle keep;
-  return RUN_ALL_TESTS();
-}

@@ -240,10 +240,3 @@ TEST_F(Lockstep, AnInterruptEndsAWait) {
 
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "lockstep_test");
-  ros::NodeHandle keep;
-  return RUN_ALL_TESTS();
-}

@@ -196,10 +196,3 @@ TEST_F(Nodes, PrivateParametersOfOthersDoNotMatter) {
 
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "names_test");
-  ros::NodeHandle keep;
-  return RUN_ALL_TESTS();
-}

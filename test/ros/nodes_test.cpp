@@ -135,10 +135,3 @@ TEST_F(Nodes, AMissingMasterIsSaid) {
 
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "nodes_test");
-  ros::NodeHandle keep;
-  return RUN_ALL_TESTS();
-}

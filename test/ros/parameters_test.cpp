@@ -155,8 +155,3 @@ TEST(OutputDirectory, StartsWhereTheRunWasCalled) {
 
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

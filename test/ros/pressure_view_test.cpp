@@ -205,9 +205,3 @@ TEST_F(Viewer, ShowsColoursLegendAndTheLegendsFrame) {
 
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "pressure_view_test");
-  return RUN_ALL_TESTS();
-}

@@ -159,10 +159,3 @@ TEST(Urdf, MovesLikeTheFrames) {
 
 }  // namespace
 }  // namespace monarch_flight
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "urdf_test");
-  ros::NodeHandle keep;
-  return RUN_ALL_TESTS();
-}

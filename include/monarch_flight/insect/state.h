@@ -53,6 +53,10 @@ struct BodyState {
   Eigen::Matrix3d R_IB() const { return rotationOf(q_IB); }
 };
 
+/// Images in the mirror y = 0: of a vector, and of one that turns (angular velocity, moment).
+Eigen::Vector3d polarImage(const Eigen::Vector3d& a);
+Eigen::Vector3d axialImage(const Eigen::Vector3d& a);
+
 /// Returns `body` with attitude, Omega and Omega_dot set from the pure pitch `pitch`.
 BodyState withPitch(BodyState body, const Coordinate& pitch);
 /// Whether the body only pitches, to the last bit: neither attitude nor rates hold roll or yaw.
