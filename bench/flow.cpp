@@ -1,6 +1,6 @@
 // Whole steps of the flow solver: time and memory per cell as one line of JSON. Under mpirun the
 // grid is shared among the processes.
-#include "fluid/flow.h"
+#include "fluid/flow/flow.h"
 
 #include <mpi.h>
 #include <sys/resource.h>
@@ -16,6 +16,7 @@
 #include "subject.h"
 
 using namespace monarch_flight;
+using namespace monarch_flight::fluid;
 
 namespace {
 

@@ -10,11 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "fluid/field.h"
+#include "fluid/fields/field.h"
 #include "monarch_flight/fluid/pressure_solver.h"
 #include "subject.h"
 
 using namespace monarch_flight;
+using namespace monarch_flight::fluid;
 
 namespace {
 

@@ -7,13 +7,14 @@
 #include <cstdlib>
 #include <memory>
 
-#include "fluid/blas.h"
-#include "fluid/flow.h"
-#include "fluid/projection.h"
-#include "fluid/wing_loads.h"
+#include "fluid/fields/projection.h"
+#include "fluid/flow/flow.h"
+#include "fluid/loads/wing_loads.h"
+#include "fluid/pressure/blas.h"
 #include "subject.h"
 
 using namespace monarch_flight;
+using namespace monarch_flight::fluid;
 
 namespace {
 
@@ -29,9 +30,9 @@ struct Fields {
   Layout layout;
   Velocity vn, vm, c, out;
   Array p, phi;
-  Momentum momentum;
+  momentum::Momentum momentum;
   PressureSolver pressure;
-  MomentumStep step;
+  momentum::MomentumStep step;
   WallVelocity wall;
 
   Fields(const Subject& s)

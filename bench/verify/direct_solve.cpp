@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <random>
 
-#include "fluid/projection.h"
+#include "fluid/fields/projection.h"
 #include "monarch_flight/fluid/pressure_solver.h"
 #include "verify/setup.h"
 #include "verify/subjects.h"
 
 namespace monarch_flight::verify {
+
+using namespace fluid;
 
 void directSolve(Report& report) {
   for (const char* outer : {"rest", "open"}) {

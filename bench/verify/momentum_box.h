@@ -1,7 +1,9 @@
 #pragma once
-#include "fluid/flow.h"
+#include "fluid/flow/flow.h"
 
 namespace monarch_flight::verify {
+
+using namespace fluid;
 
 /// Balance over the cells [low, high) of the committed field, wing axes.
 class Box {

@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "fluid/flow.h"
+#include "fluid/flow/flow.h"
 #include "monarch_flight/fluid/navier_stokes.h"
 #include "monarch_flight/math/rotation.h"
 #include "verify/report.h"
 
 namespace monarch_flight::verify {
 
+using namespace fluid;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Motion = std::function<WingMotion(double t)>;

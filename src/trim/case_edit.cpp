@@ -3,14 +3,14 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "run/case_reader.h"
+#include "run/case/reader.h"
 
 namespace monarch_flight {
 namespace {
 
 YAML::Node list(const std::vector<double>& values, double unit) {
   YAML::Node node(YAML::NodeType::Sequence);
-  for (double value : values) node.push_back(exactText(value * unit));
+  for (double value : values) node.push_back(case_file::exactText(value * unit));
   node.SetStyle(YAML::EmitterStyle::Flow);
   return node;
 }
@@ -62,7 +62,7 @@ std::string CaseEdit::at(const Path& path) const {
   return node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
 }
 
-void CaseEdit::set(const Path& path, double value) { set(path, exactText(value)); }
+void CaseEdit::set(const Path& path, double value) { set(path, case_file::exactText(value)); }
 
 void CaseEdit::set(const Path& path, const std::string& value) {
   YAML::Node above = parent(path);
@@ -79,7 +79,7 @@ void CaseEdit::setVector(const Path& path, const Eigen::Vector3d& value) {
 
 void CaseEdit::setSeries(const Path& path, const FourierSeries& series, double unit) {
   YAML::Node node(YAML::NodeType::Map);
-  node["A0"] = exactText(series.a0 * unit);
+  node["A0"] = case_file::exactText(series.a0 * unit);
   node["AN"] = list(series.an, unit);
   node["BN"] = list(series.bn, unit);
   node["multiple"] = std::to_string(series.multiple);

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "monarch_flight/trim/control_design.h"
-#include "run/case_reader.h"
+#include "run/case/reader.h"
 
 namespace monarch_flight {
 namespace {

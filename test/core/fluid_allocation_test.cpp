@@ -6,7 +6,7 @@
 #include <cstring>
 #include <memory>
 
-#include "fluid/flow.h"
+#include "fluid/flow/flow.h"
 
 // Counts every request for memory of the process (glibc), but for OpenBLAS' own: on processors with
 // AVX-512 its kernels for small products take their buffers from malloc.
@@ -40,7 +40,7 @@ extern "C" void* aligned_alloc(std::size_t alignment, std::size_t size) {
   return __libc_memalign(alignment, size);
 }
 
-namespace monarch_flight {
+namespace monarch_flight::fluid {
 namespace {
 
 WingMotion gliding(double t) {
@@ -81,4 +81,4 @@ TEST_P(Steps, AllocateNothing) {
 INSTANTIATE_TEST_SUITE_P(OuterBoundary, Steps, ::testing::Values("rest", "open"));
 
 }  // namespace
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid

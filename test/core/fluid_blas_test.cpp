@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "fluid/blas.h"
-#include "fluid/pressure_modes.h"
+#include "fluid/pressure/blas.h"
+#include "fluid/pressure/modes.h"
 
-namespace monarch_flight {
+namespace monarch_flight::fluid::pressure {
 namespace {
 
 constexpr long kMegabyte = 1L << 20;
@@ -85,4 +85,4 @@ TEST(BlasDeathTest, LaterWorkNeedsNoMoreMemory) {
 }
 
 }  // namespace
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid::pressure

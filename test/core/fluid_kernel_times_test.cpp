@@ -6,11 +6,11 @@
 #include <ctime>
 #include <numeric>
 
-#include "fluid/flow.h"
+#include "fluid/flow/flow.h"
 #include "monarch_flight/math/rotation.h"
 #include "monarch_flight/math/seconds_since.h"
 
-namespace monarch_flight {
+namespace monarch_flight::fluid {
 namespace {
 
 WingMotion flapping(double t) {
@@ -60,4 +60,4 @@ TEST(KernelTimes, ALapIsNotSeen) {
 }
 
 }  // namespace
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid

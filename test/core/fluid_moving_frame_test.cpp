@@ -2,12 +2,11 @@
 // air at rest, Stokes' second problem.
 #include <gtest/gtest.h>
 
+#include "core/fluid_flapping.h"
+#include "fluid/flow/flow.h"
 #include "monarch_flight/insect/prescribed_motion.h"
 
-#include "core/fluid_flapping.h"
-#include "fluid/flow.h"
-
-namespace monarch_flight {
+namespace monarch_flight::fluid {
 namespace {
 
 using Eigen::Vector3d;
@@ -148,4 +147,4 @@ TEST(NavierStokes, StokesSecondProblemIsOfSecondOrder) {
 }
 
 }  // namespace
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "core/fluid_flapping.h"
-#include "fluid/flow.h"
-#include "fluid/projection.h"
+#include "fluid/fields/projection.h"
+#include "fluid/flow/flow.h"
 #include "monarch_flight/math/errors.h"
 
-namespace monarch_flight {
+namespace monarch_flight::fluid {
 namespace {
 
 using Eigen::Vector3d;
@@ -254,4 +254,4 @@ TEST(NavierStokes, ACourantNumberAboveTheLimitEndsTheRun) {
 }
 
 }  // namespace
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "core/fluid_flapping.h"
-#include "fluid/flow.h"
+#include "fluid/flow/flow.h"
 
-namespace monarch_flight {
+namespace monarch_flight::fluid {
 namespace {
 
 constexpr double kDt = 0.005;
@@ -85,4 +85,4 @@ INSTANTIATE_TEST_SUITE_P(CellsBelowAndOuter, Sides,
                          ::testing::Combine(::testing::Values(1, 2, 3), ::testing::Bool()));
 
 }  // namespace
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid

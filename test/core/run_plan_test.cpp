@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "fluid/flow.h"
+#include "fluid/flow/flow.h"
 #include "monarch_flight/fluid/flow_cost.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/math/seconds_since.h"

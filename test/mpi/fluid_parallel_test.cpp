@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 #include <mpi.h>
 
-#include "fluid/shared_flow.h"
+#include "fluid/processes/shared_flow.h"
 #include "monarch_flight/fluid/flow_cost.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/math/rotation.h"
 
-namespace monarch_flight {
+namespace monarch_flight::fluid {
 namespace {
 
 WingMotion flapping(double t) {
@@ -172,11 +172,11 @@ bool sharedFlowFlies() {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank != 0) {
-    SharedFlow::serve(MPI_COMM_WORLD);
+    processes::SharedFlow::serve(MPI_COMM_WORLD);
     return true;
   }
   NavierStokes alone(plate(false), thinAir(), 1.0, 10.0);
-  SharedFlow shared(plate(false), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
+  processes::SharedFlow shared(plate(false), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
   alone.start(flapping(0), 0.01);
   shared.start(flapping(0), 0.01);
   double worst = 0;
@@ -195,19 +195,19 @@ bool sharedFlowFlies() {
   const Eigen::Vector3d force = shared.evaluate(flapping(0.05)).force();
   shared.restore(state);
   const bool same = shared.evaluate(flapping(0.05)).force() == force;
-  SharedFlow::dismiss(MPI_COMM_WORLD);
+  processes::SharedFlow::dismiss(MPI_COMM_WORLD);
   std::printf("shared flow: difference %g, restored %d, pictures %d\n", worst, same, pictures);
   return worst < 1e-10 && same && pictures;
 }
 
 }  // namespace
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   ::testing::InitGoogleTest(&argc, argv);
   int failed = RUN_ALL_TESTS();
-  if (!monarch_flight::sharedFlowFlies()) failed = 1;
+  if (!monarch_flight::fluid::sharedFlowFlies()) failed = 1;
   MPI_Finalize();
   return failed;
 }

@@ -8,11 +8,12 @@
 #include <cstdlib>
 #include <string>
 
-#include "fluid/peer_watch.h"
-#include "fluid/shared_flow.h"
-#include "fluid/time_limit.h"
+#include "fluid/processes/peer_watch.h"
+#include "fluid/processes/shared_flow.h"
+#include "fluid/processes/time_limit.h"
 
 using namespace monarch_flight;
+using namespace monarch_flight::fluid;
 
 namespace {
 
@@ -34,7 +35,7 @@ GridSettings small() {
 template <class Fall>
 void lead(Fall fall) {
   const Grid grid = makeGrid(Planform::rectangle(1.0, 2.0, 0.5), small());
-  SharedFlow flow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD, kWatchdog);
+  processes::SharedFlow flow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD, kWatchdog);
   flow.start(WingMotion(), 0.01);
   flow.evaluate(WingMotion());
   std::puts("flying");
@@ -46,9 +47,10 @@ void lead(Fall fall) {
 /// Process 0: sends the others home, from where the last one does not come back, and begins anew.
 void leadTwice() {
   const Grid grid = makeGrid(Planform::rectangle(1.0, 2.0, 0.5), small());
-  SharedFlow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD, kWatchdog);
-  SharedFlow::dismiss(MPI_COMM_WORLD);
-  SharedFlow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD, kWatchdog / 10);  // waits ten times as long
+  processes::SharedFlow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD, kWatchdog);
+  processes::SharedFlow::dismiss(MPI_COMM_WORLD);
+  processes::SharedFlow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD,
+                        kWatchdog / 10);  // waits ten times as long
   std::puts("the flow was made nevertheless");
 }
 
@@ -59,21 +61,21 @@ int main(int argc, char** argv) {
   const char* variable = std::getenv("OMPI_COMM_WORLD_RANK");
   if (way == "before" && variable != nullptr && std::string(variable) == "1") hang();
   {
-    const TimeLimit limit(way == "before" ? 2.0 : 60.0, "not all began");
+    const processes::TimeLimit limit(way == "before" ? 2.0 : 60.0, "not all began");
     MPI_Init(&argc, &argv);
   }
   int rank = 0, count = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &count);
-  PeerWatch::begin(MPI_COMM_WORLD);
+  processes::PeerWatch::begin(MPI_COMM_WORLD);
   const int last = count - 1;
   int pid = getpid();
   MPI_Bcast(&pid, 1, MPI_INT, last, MPI_COMM_WORLD);
   if (rank > 0) {
     std::signal(SIGUSR1, hang);
-    SharedFlow::serve(MPI_COMM_WORLD);
+    processes::SharedFlow::serve(MPI_COMM_WORLD);
     if (rank == last) hang();
-    SharedFlow::serve(MPI_COMM_WORLD);
+    processes::SharedFlow::serve(MPI_COMM_WORLD);
   } else if (way == "stopped") {
     lead([&] { kill(pid, SIGSTOP); });
   } else if (way == "in_a_wait") {

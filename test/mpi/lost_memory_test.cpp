@@ -8,10 +8,11 @@
 #include <fstream>
 #include <string>
 
-#include "fluid/blas.h"
-#include "fluid/shared_flow.h"
+#include "fluid/pressure/blas.h"
+#include "fluid/processes/shared_flow.h"
 
 using namespace monarch_flight;
+using namespace monarch_flight::fluid;
 
 namespace {
 
@@ -32,17 +33,18 @@ int main(int argc, char** argv) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   const bool blas = argc > 1 && std::string(argv[1]) == "blas";
   if (rank == 1) {
-    if (!blas) takeBlasBuffers();  // the limit is to strike behind them, on every processor
+    if (!blas)
+      pressure::takeBlasBuffers();  // the limit is to strike behind them, on every processor
     limitMemory(20L << 20);
-    SharedFlow::serve(MPI_COMM_WORLD);
+    processes::SharedFlow::serve(MPI_COMM_WORLD);
   } else {
     const Grid grid =
         makeGrid(Planform::rectangle(1.0, 2.0, 0.5), GridSettings::preset("standard"));
-    SharedFlow flow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD);
+    processes::SharedFlow flow(grid, Air(), 1.0, 3.0, MPI_COMM_WORLD);
     flow.start(WingMotion(), 0.01);
     flow.evaluate(WingMotion());
     std::puts("the flow was made nevertheless");
-    SharedFlow::dismiss(MPI_COMM_WORLD);
+    processes::SharedFlow::dismiss(MPI_COMM_WORLD);
   }
   MPI_Finalize();
   return 0;

@@ -7,7 +7,9 @@
 
 namespace monarch_flight {
 
+namespace fluid {
 class Slab;
+}
 
 /// Direct solver of the Poisson equation on a Grid with a wing.
 ///
@@ -28,7 +30,7 @@ class PressureSolver {
   explicit PressureSolver(const Grid& grid);
   /// On the processes of a slab, `solve` then sees the planes of this process
   /// only, and all processes call it alike; `apply` is for one process that owns all.
-  PressureSolver(const Grid& grid, const Slab& slab);
+  PressureSolver(const Grid& grid, const fluid::Slab& slab);
   ~PressureSolver();
   PressureSolver(const PressureSolver&) = delete;
   PressureSolver& operator=(const PressureSolver&) = delete;

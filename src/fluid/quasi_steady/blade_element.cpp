@@ -7,7 +7,7 @@
 #include "monarch_flight/fluid/quasi_steady.h"
 #include "monarch_flight/math/errors.h"
 
-namespace monarch_flight {
+namespace monarch_flight::fluid::quasi_steady {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -213,4 +213,4 @@ std::unique_ptr<FluidModel> makeQuasiSteady(const Planform& planform, const Air&
   return std::make_unique<BladeElement>(planform, air, variant);
 }
 
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid::quasi_steady

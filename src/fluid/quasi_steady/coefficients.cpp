@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace monarch_flight {
+namespace monarch_flight::fluid::quasi_steady {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -43,4 +43,4 @@ double rotationalDampingCoefficient(BladeElementVariant variant) {
   return saneDickinson(0.5 * kPi).drag;
 }
 
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid::quasi_steady

@@ -1,7 +1,7 @@
 #pragma once
 #include "monarch_flight/fluid/quasi_steady.h"
 
-namespace monarch_flight {
+namespace monarch_flight::fluid::quasi_steady {
 
 /// Steady coefficients of one section for the direction it moves in.
 struct SectionCoefficients {
@@ -20,4 +20,4 @@ SectionCoefficients sectionCoefficients(BladeElementVariant variant, double alph
 /// Coefficient of the drag of elements of the chord in pure rotation about the reference point.
 double rotationalDampingCoefficient(BladeElementVariant variant);
 
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid::quasi_steady

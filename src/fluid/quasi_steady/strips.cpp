@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace monarch_flight {
+namespace monarch_flight::fluid::quasi_steady {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -74,4 +74,4 @@ Matrix6d stripAddedMass(const std::vector<Strip>& strips, double rho) {
   return upper.selfadjointView<Eigen::Upper>();  // symmetric to the last bit
 }
 
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid::quasi_steady

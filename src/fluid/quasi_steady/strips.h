@@ -4,7 +4,7 @@
 #include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/insect/planform.h"
 
-namespace monarch_flight {
+namespace monarch_flight::fluid::quasi_steady {
 
 /// One blade element: a section of the wing at station y that stands for the span dy.
 struct Strip {
@@ -28,4 +28,4 @@ std::vector<Strip> makeStrips(const Planform& planform, int minimum);
 /// about mid-chord. Symmetric, positive semidefinite; only v_z, omega_x and omega_y carry any.
 Matrix6d stripAddedMass(const std::vector<Strip>& strips, double rho);
 
-}  // namespace monarch_flight
+}  // namespace monarch_flight::fluid::quasi_steady

@@ -1,0 +1,206 @@
+#include "fluid/flow/flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "fluid/fields/projection.h"
+#include "fluid/loads/wing_loads.h"
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/math/rotation.h"
+
+namespace monarch_flight::fluid {
+
+namespace {
+
+/// A wing set in motion at once drives potential flow round its rim, fast there for a few steps:
+/// twice the Courant number is let pass.
+constexpr long kStartSteps = 10;
+constexpr long kDivergenceEvery = 50;  // steps: a look at all velocities
+
+}  // namespace
+
+void NavierStokes::fillPhiHalo() {
+  const int plane = layout_.nx * layout_.ny;
+  if (!slab_.atTop())
+    slab_.sendUp(phi() + static_cast<std::ptrdiff_t>(slab_.planes() - 1) * plane, plane);
+  if (!slab_.atBottom()) slab_.receiveFromBelow(phi() - plane, plane);
+}
+
+/// Outer faces and ghosts of a field resolved in `frame`, of a grid at `place` at time t.
+void NavierStokes::fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isometry3d& place,
+                                double t, Velocity& v) const {
+  if (!known_ && !grid_.open) return;  // air at rest: what the fields were made with
+  if (grid_.open) {
+    fillOuter(grid_, layout_, v);
+    return;
+  }
+  fillOuter(
+      grid_, layout_,
+      [&](const Eigen::Vector3d& r) -> Eigen::Vector3d {
+        return frame.transpose() * known_(place * r, t);
+      },
+      v);
+}
+
+void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame) {
+  const Eigen::Matrix3d Q = frame.transpose() * level.frame;
+  rotateField(layout_, Q, v, v_star_);
+  std::swap(v, v_star_);
+  level.frame = frame;
+  level.wall = rotated(level.wall, Q);
+  fillFarField(frame, predicted_place_, (steps_ + 1) * dt_, v);  // the increment there is 0
+  fillWing(grid_, layout_, level.wall, v);
+  fillHalo(layout_, slab_, v);
+}
+
+void NavierStokes::convectingField(const GridVelocity& g) {
+  const double extrapolation = step_.second_order ? 1.0 : 0.0;
+  for (int c = 0; c < 3; ++c) {
+    for (int k = std::max(0, layout_.k0 - 1); k <= std::min(layout_.k1, layout_.nz - (c != 2));
+         ++k) {
+      const double z = c == 2 ? grid_.z.face[k] : grid_.z.centre[k];
+      for (int j = 0; j < layout_.ny + (c == 1); ++j) {
+        const double y = c == 1 ? grid_.y.face[j] : grid_.y.centre[j];
+        const std::ptrdiff_t row = layout_.at(0, j, k);
+        const double* __restrict a = vn_.c[c].data() + row;
+        const double* __restrict b = vm_.c[c].data() + row;
+        const double* __restrict x = (c == 0 ? grid_.x.face : grid_.x.centre).data();
+        double* __restrict o = convecting_.c[c].data() + row;
+        const double g0 = g.at(c, 0, y, z), gx = g.at(c, 1, y, z) - g0;
+        const int n = layout_.nx + (c == 0);
+        for (int i = 0; i < n; ++i) o[i] = a[i] + extrapolation * (a[i] - b[i]) - (g0 + gx * x[i]);
+      }
+    }
+  }
+  fillWing(grid_, layout_, WallVelocity{}, convecting_);  // no air through the wing
+}
+
+/// Largest in-plane Courant number over the wing and half a reference length above and below it.
+double NavierStokes::courant() const {
+  double worst = 0;
+  for (int k = layout_.k0; k < layout_.k1; ++k) {
+    if (std::abs(grid_.z.centre[k]) > 0.5 * reference_length_) continue;
+    for (int j = 0; j < layout_.ny; ++j) {
+      for (int i = 0; i < layout_.nx; ++i) {
+        if (!grid_.isWing(i, j)) continue;
+        const std::ptrdiff_t q = layout_.at(i, j, k);
+        const double cx =
+            std::max(std::abs(convecting_.c[0][q]), std::abs(convecting_.c[0][q + 1]));
+        const double cy =
+            std::max(std::abs(convecting_.c[1][q]), std::abs(convecting_.c[1][q + layout_.sy]));
+        worst = std::max({worst, cx / grid_.x.width[i], cy / grid_.y.width[j]});
+      }
+    }
+  }
+  return slab_.max(worst) * dt_;
+}
+
+/// What a step does before any guess of the interface: (1) predict the grid's motion, (2) turn both
+/// old levels into the predicted axes (this is the Coriolis term, exactly), (3) freeze the
+/// convecting field, (4) all of the momentum step that does not see the wall's new velocity.
+void NavierStokes::prepareStep() {
+  const GridVelocity& n = level_n_.grid;
+  const GridVelocity& m = level_m_.grid;
+  LapTimer timer(report_.kernel_s);
+  if (!prepared_) {
+    const Eigen::Vector3d omega_mid = 1.5 * n.omega - 0.5 * m.omega;
+    predicted_frame_ = level_n_.frame * expSO3(dt_ * omega_mid);
+    predicted_place_.linear() = predicted_frame_;
+    predicted_place_.translation() =
+        level_n_.place.translation() +
+        dt_ * (1.5 * level_n_.place.linear() * n.V - 0.5 * level_m_.place.linear() * m.V);
+    turnLevel(vn_, level_n_, predicted_frame_);
+    turnLevel(vm_, level_m_, predicted_frame_);
+    prepared_ = true;
+  }
+  const bool second = steps_ > 0;
+  step_ = {second ? 2 * dt_ / 3 : dt_, dt_, air_.mu / air_.rho, air_.rho, second};
+  convectingField({2 * n.V - m.V, 2 * n.omega - m.omega});
+  report_.courant = courant();
+  timer.lap(Kernel::kTurning);
+  const double limit = courant_limit_ * (steps_ < kStartSteps ? 2 : 1);
+  if (report_.courant > limit) {
+    step_ = {};
+    std::ostringstream s;
+    s << "Courant number " << report_.courant << " exceeds " << limit << ", "
+      << (steps_ < kStartSteps ? "in the first steps twice " : "")
+      << "grid/courant_limit = " << courant_limit_
+      << ": use more steps a flap, a coarser grid, or raise the limit";
+    throw NumericalError(s.str());
+  }
+  momentum_.prepare(step_, vn_, vm_, convecting_, p_, level_n_.wall);
+  timer.lap(Kernel::kMomentumXY);
+}
+
+/// One evaluation: (1) momentum with the wall's new velocity, (2) pressure, (3) loads.
+Loads NavierStokes::evaluate(const WingMotion& next) {
+  if (!(dt_ > 0)) throw std::logic_error("NavierStokes::evaluate before start");
+  evaluated_ = false;  // until it is done: what throws leaves nothing to commit
+  if (step_.dt == 0) prepareStep();
+  LapTimer timer(report_.kernel_s);
+  next_.frame = next.R_IW;
+  next_.grid = gridVelocity(next);
+  next_.wall = wallVelocity(next_.grid);
+  next_.place = placeOf(next);
+  momentum_.finish(vn_, convecting_, combined(1, next_.wall, -1, level_n_.wall, 0, next_.wall),
+                   v_star_);
+  fillFarField(predicted_frame_, next_.place, (steps_ + 1) * dt_, v_star_);
+  fillWing(grid_, layout_, next_.wall, v_star_);
+
+  fillHalo(layout_, slab_, v_star_.c[2]);
+  timer.lap(Kernel::kMomentumZ);
+
+  netOutflow(grid_, layout_, v_star_, air_.rho / step_.a, phi());
+  timer.lap(Kernel::kOutflow);
+  pressure_.solve(phi(), report_.kernel_s);
+  timer.restart();
+
+  acceleration_ =
+      step_.second_order
+          ? combined(1.5 / dt_, next_.wall, -2 / dt_, level_n_.wall, 0.5 / dt_, level_m_.wall)
+          : combined(1 / dt_, next_.wall, -1 / dt_, level_n_.wall, 0, next_.wall);
+  Loads loads;
+  loads::pressureLoads(grid_, layout_, loads::WingPressure(grid_, layout_, p_.data(), phi()),
+                       air_.rho, acceleration_, loads);
+  loads::frictionLoads(grid_, layout_, momentum_, v_star_, phi(), step_.a / air_.rho, next_.wall,
+                       air_.mu, loads);
+  loads::rimLoads(grid_, layout_, momentum_, convecting_, v_star_, air_.rho / step_.a, row_.data(),
+                  loads);
+  loads::sumLoads(slab_, loads);
+  timer.lap(Kernel::kLoads);
+  if (!loads.finite()) throw NumericalError("Navier-Stokes: the loads are not finite");
+  evaluated_ = true;
+  return loads;
+}
+
+void NavierStokes::commit() {
+  if (!evaluated_) throw std::logic_error("NavierStokes::commit without evaluate");
+  LapTimer timer(report_.kernel_s);
+  fillPhiHalo();
+  subtractGradient(grid_, layout_, phi(), step_.a / air_.rho, v_star_);
+  fillHalo(layout_, slab_, v_star_);
+  for (int k = layout_.k0; k < layout_.k1; ++k) {
+    for (int j = 0; j < layout_.ny; ++j) {
+      double* p = p_.data() + layout_.at(0, j, k);
+      const double* f =
+          phi() + (static_cast<std::ptrdiff_t>(k - layout_.k0) * layout_.ny + j) * layout_.nx;
+      for (int i = 0; i < layout_.nx; ++i) p[i] += f[i];
+    }
+  }
+  fillHalo(layout_, slab_, p_);
+  std::swap(vm_, vn_);      // n becomes n-1
+  std::swap(vn_, v_star_);  // v* has become n
+  level_m_ = level_n_;
+  level_n_ = next_;
+  committed_acceleration_ = acceleration_;
+  ++steps_;
+  prepared_ = evaluated_ = false;
+  step_ = {};
+  if (steps_ % kDivergenceEvery == 1)
+    report_.divergence = relativeDivergence(grid_, layout_, slab_, vn_);
+  timer.lap(Kernel::kProjection);
+}
+
+}  // namespace monarch_flight::fluid

@@ -1,0 +1,114 @@
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "fluid/fields/field.h"
+#include "fluid/fields/frame.h"
+#include "fluid/loads/load_operator.h"
+#include "fluid/momentum/momentum.h"
+#include "monarch_flight/fluid/fluid_model.h"
+#include "monarch_flight/fluid/pressure_solver.h"
+
+namespace monarch_flight::fluid {
+
+/// A flow known everywhere: velocity relative to the wind, inertial axes, at the place r_I and the
+/// time t since the start.
+using KnownFlow = std::function<Eigen::Vector3d(const Eigen::Vector3d& r_I, double t)>;
+
+/// One stored time level: the field's axes, the grid's velocity and the wall's, in those axes.
+struct Level {
+  Eigen::Matrix3d frame =
+      Eigen::Matrix3d::Identity();  ///< takes the field's components to inertial ones
+  GridVelocity grid;                ///< of the grid at that time, in its own axes then
+  WallVelocity wall;                ///< resolved in `frame`
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();  ///< of the grid then (known flows)
+};
+
+/// Incompressible flow on a grid that is fixed to the wing. Unknown: the absolute velocity
+/// (relative to the wind), resolved in wing axes. Method: docs/fluid.md.
+class NavierStokes : public FluidModel {
+ public:
+  /// On the processes of `comm` (default: this one alone); all of them call every function alike.
+  NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit,
+               MPI_Comm comm = MPI_COMM_NULL);
+
+  void start(const WingMotion& motion, double dt) override;
+  Loads evaluate(const WingMotion& next) override;
+  /// By unit evaluations: exact, for within a step the loads are affine in the wall's velocity.
+  Loads linearise(const WingMotion& next, LoadOperator& jacobian) override {
+    return loads::affineLinearise(*this, next, jacobian);
+  }
+  int operatorCost() const override { return loads::kAffineEvaluations; }
+  void commit() override;
+  std::vector<char> save() const override;
+  void restore(const std::vector<char>& bytes) override;
+  Matrix6d addedMass() const override { return added_mass_; }
+  FluidReport report() const override { return report_; }
+  long cells() const override { return grid_.cells(); }
+  SurfacePressure surfacePressure() const override;
+  std::vector<VortexPoint> vortices(double q_threshold, int limit) const override;
+  std::shared_ptr<const FlowField> flowField() const override;
+
+  const Grid& grid() const { return grid_; }
+  const Layout& layout() const { return layout_; }
+  const Slab& slab() const { return slab_; }
+  const Velocity& velocity() const { return requireCommitted(), vn_; }  ///< committed level n
+  const Array& pressure() const { return p_; }  ///< committed, cell (i, j, k) at face (i, j, k)
+  /// Replaces the air at rest by a known flow: levels 0 and -1 and, from then on, the values on a
+  /// closed outer boundary. For verification: it is not part of the saved state. After start().
+  void setKnownFlow(KnownFlow flow);
+
+ private:
+  void prepareStep();
+  void turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame);
+  void convectingField(const GridVelocity& grid_velocity);
+  double courant() const;
+  Matrix6d computeAddedMass();
+  void potentialStart();
+  void fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isometry3d& place, double t,
+                    Velocity& v) const;
+
+  Eigen::Vector3d velocityAt(int i, int j, int k) const;  ///< committed, at the cell's centre
+  Eigen::Matrix3d gradientAt(int i, int j, int k) const;
+  std::vector<FlowField::WingFace> wingFaces() const;
+
+  double* phi() { return phi_.data() + phi_start_; }  ///< of this process's first cell
+  void fillPhiHalo();
+  /// Between evaluate and commit the velocities are those in the axes of the next level:
+  /// std::logic_error.
+  void requireCommitted() const;
+
+  Grid grid_;
+  Slab slab_;
+  Layout layout_;
+  Air air_;
+  double reference_length_, courant_limit_;
+  PressureSolver pressure_;
+  momentum::Momentum momentum_;
+  Matrix6d added_mass_;
+
+  // committed state
+  double dt_ = 0;
+  long steps_ = 0;           ///< committed since start
+  bool prepared_ = false;    ///< levels are turned into the predicted axes of n+1
+  Level level_n_, level_m_;  ///< n and n-1
+  Velocity vn_, vm_;
+  Array p_;
+  WallVelocity committed_acceleration_{};  ///< of the wing's points, own axes [m/s^2]
+  KnownFlow known_;                        ///< empty: air at rest
+
+  // of the step being computed
+  momentum::MomentumStep step_{};
+  Velocity convecting_, v_star_;
+  Array phi_;  ///< one plane of the process below, then this process's cells
+  std::ptrdiff_t phi_start_;
+  Array row_;  ///< scratch of the loads
+  Eigen::Matrix3d predicted_frame_;
+  Eigen::Isometry3d predicted_place_ = Eigen::Isometry3d::Identity();
+  Level next_;
+  WallVelocity acceleration_;
+  bool evaluated_ = false;
+  FluidReport report_;
+};
+
+}  // namespace monarch_flight::fluid

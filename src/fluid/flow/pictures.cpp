@@ -1,0 +1,179 @@
+// Fields for pictures and files: what surrounds the wing at the committed level.
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "fluid/flow/flow.h"
+#include "fluid/loads/wing_loads.h"
+
+namespace monarch_flight::fluid {
+namespace {
+
+/// The items of all processes on process 0, bottom first.
+template <class T>
+std::vector<T> gathered(const Slab& slab, const std::vector<T>& mine) {
+  if (slab.ranks() == 1) return mine;
+  const char* begin = reinterpret_cast<const char*>(mine.data());
+  const std::vector<char> all =
+      slab.gather(std::vector<char>(begin, begin + mine.size() * sizeof(T)));
+  std::vector<T> items(all.size() / sizeof(T));
+  if (!all.empty()) std::memcpy(static_cast<void*>(items.data()), all.data(), all.size());
+  return items;
+}
+
+double secondInvariant(const Eigen::Matrix3d& gradient) {
+  return -0.5 * (gradient * gradient).trace();
+}
+
+Eigen::Vector3d curl(const Eigen::Matrix3d& g) {
+  return {g(2, 1) - g(1, 2), g(0, 2) - g(2, 0), g(1, 0) - g(0, 1)};
+}
+
+}  // namespace
+
+void NavierStokes::requireCommitted() const {
+  if (prepared_) {
+    throw std::logic_error(
+        "Navier-Stokes: velocities are those of the committed level, not to be had between "
+        "evaluate and commit");
+  }
+}
+
+Eigen::Vector3d NavierStokes::velocityAt(int i, int j, int k) const {
+  const std::ptrdiff_t q = layout_.at(i, j, k);
+  Eigen::Vector3d v;
+  for (int c = 0; c < 3; ++c) {
+    v[c] = 0.5 * (vn_.c[c][q] + vn_.c[c][q + layout_.stride(c)]);
+  }
+  return v;
+}
+
+/// g(c, d) = d v_c / d x_d at the centre of a cell. Differences along z end at the wing: there the
+/// air has the wall's velocity.
+Eigen::Matrix3d NavierStokes::gradientAt(int i, int j, int k) const {
+  const Axis* axes[3] = {&grid_.x, &grid_.y, &grid_.z};
+  const int at[3] = {i, j, k};
+  const std::ptrdiff_t q = layout_.at(i, j, k);
+  const bool wing = grid_.isWing(i, j);
+  const bool above = wing && k == grid_.k_wing, below = wing && k == grid_.k_wing - 1;
+  Eigen::Matrix3d g;
+  for (int c = 0; c < 3; ++c) {
+    const double* v = vn_.c[c].data() + q;
+    const std::ptrdiff_t sc = layout_.stride(c);
+    for (int d = 0; d < 3; ++d) {
+      const std::ptrdiff_t s = layout_.stride(d);
+      const Axis& a = *axes[d];
+      if (c == d) {
+        g(c, d) = (v[s] - v[0]) / a.width[at[d]];
+        continue;
+      }
+      double low = 0.5 * (v[-s] + v[-s + sc]), high = 0.5 * (v[s] + v[s + sc]);
+      double low_gap = a.gap[at[d]], high_gap = a.gap[at[d] + 1];
+      if (d == 2 && (above || below)) {
+        const double wall = level_n_.wall.at(c, grid_.x.centre[i], grid_.y.centre[j]);
+        (above ? low : high) = wall;
+        (above ? low_gap : high_gap) = 0.5 * a.width[k];
+      }
+      g(c, d) = (high - low) / (low_gap + high_gap);
+    }
+  }
+  return g;
+}
+
+SurfacePressure NavierStokes::surfacePressure() const {
+  std::vector<SurfacePressure::Facet> facets;
+  const loads::WingPressure p(grid_, layout_, p_.data(), nullptr);
+  for (int j = 0; slab_.owns(grid_.k_wing) && j < layout_.ny; ++j) {
+    for (int i = 0; i < layout_.nx; ++i) {
+      if (!grid_.isWing(i, j)) continue;
+      const double x = grid_.x.centre[i], y = grid_.y.centre[j],
+                   a_n = committed_acceleration_.at(2, x, y);
+      facets.push_back({float(x), float(y), float(grid_.x.width[i]), float(grid_.y.width[j]),
+                        float(p.below(i, j, air_.rho, a_n)), float(p.above(i, j, air_.rho, a_n))});
+    }
+  }
+  return {gathered(slab_, facets)};
+}
+
+std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) const {
+  requireCommitted();
+  std::vector<VortexPoint> points;
+  for (int k = std::max(1, layout_.k0); k < std::min(layout_.k1, layout_.nz - 1); ++k) {
+    for (int j = 1; j < layout_.ny - 1; ++j) {
+      for (int i = 1; i < layout_.nx - 1; ++i) {
+        const Eigen::Matrix3d g = gradientAt(i, j, k);
+        const double Q = secondInvariant(g);
+        if (Q <= q_threshold) continue;
+        points.push_back({float(grid_.x.centre[i]), float(grid_.y.centre[j]),
+                          float(grid_.z.centre[k]), float(Q), float(curl(g).y())});
+      }
+    }
+  }
+  points = gathered(slab_, points);
+  if (static_cast<int>(points.size()) > limit) {
+    std::nth_element(points.begin(), points.begin() + limit, points.end(),
+                     [](const VortexPoint& a, const VortexPoint& b) { return a.q > b.q; });
+    points.resize(limit);
+  }
+  return points;
+}
+
+std::vector<FlowField::WingFace> NavierStokes::wingFaces() const {
+  std::vector<FlowField::WingFace> faces;
+  const int kw = grid_.k_wing;
+  const loads::WingPressure p(grid_, layout_, p_.data(), nullptr);
+  for (int j = 0; slab_.owns(kw) && j < layout_.ny; ++j) {
+    for (int i = 0; i < layout_.nx; ++i) {
+      if (!grid_.isWing(i, j)) continue;
+      const double x = grid_.x.centre[i], y = grid_.y.centre[j],
+                   a_n = committed_acceleration_.at(2, x, y);
+      FlowField::WingFace f{float(x),
+                            float(y),
+                            float(grid_.x.width[i]),
+                            float(grid_.y.width[j]),
+                            float(p.below(i, j, air_.rho, a_n)),
+                            float(p.above(i, j, air_.rho, a_n)),
+                            {0, 0},
+                            {0, 0}};
+      const Eigen::Vector3d upper = velocityAt(i, j, kw - 1), lower = velocityAt(i, j, kw);
+      for (int c = 0; c < 2; ++c) {
+        const double wall = level_n_.wall.at(c, x, y);
+        f.friction_upper[c] = air_.mu * (upper[c] - wall) / (0.5 * grid_.z.width[kw - 1]);
+        f.friction_lower[c] = air_.mu * (lower[c] - wall) / (0.5 * grid_.z.width[kw]);
+      }
+      faces.push_back(f);
+    }
+  }
+  return gathered(slab_, faces);
+}
+
+std::shared_ptr<const FlowField> NavierStokes::flowField() const {
+  requireCommitted();
+  FlowField mine;
+  const auto put = [](std::vector<float>& to, const Eigen::Vector3d& v) {
+    to.insert(to.end(), {float(v.x()), float(v.y()), float(v.z())});
+  };
+  for (int k = layout_.k0; k < layout_.k1; ++k) {
+    for (int j = 0; j < layout_.ny; ++j) {
+      for (int i = 0; i < layout_.nx; ++i) {
+        const Eigen::Matrix3d g = gradientAt(i, j, k);
+        put(mine.velocity, velocityAt(i, j, k));
+        put(mine.vorticity, curl(g));
+        mine.pressure.push_back(float(p_[layout_.at(i, j, k)]));
+        mine.q.push_back(float(secondInvariant(g)));
+      }
+    }
+  }
+  auto whole = std::make_shared<FlowField>();
+  for (auto part :
+       {&FlowField::velocity, &FlowField::vorticity, &FlowField::pressure, &FlowField::q}) {
+    (*whole).*part = gathered(slab_, mine.*part);
+  }
+  whole->x = grid_.x.face;
+  whole->y = grid_.y.face;
+  whole->z = grid_.z.face;
+  whole->wing = wingFaces();
+  return whole;
+}
+
+}  // namespace monarch_flight::fluid
