@@ -30,6 +30,7 @@ struct Fields {
   Layout layout;
   Velocity vn, vm, c, out;
   Array p, phi;
+  Team team;
   momentum::Momentum momentum;
   PressureSolver pressure;
   momentum::MomentumStep step;
@@ -45,8 +46,8 @@ struct Fields {
         out(layout),
         p(layout.size(), 0.0),
         phi(grid.cells() + grid.x.n() * grid.y.n(), 0.0),
-        momentum(grid, layout, slab),
-        pressure(grid, slab),
+        momentum(grid, layout, slab, team),
+        pressure(grid, slab, team),
         step{2 * s.dt(grid) / 3, s.dt(grid), s.air().mu / s.air().rho, s.air().rho, true},
         wall(wallVelocity(gridVelocity(s.motion(0)))) {
     for (int d = 0; d < 3; ++d) {
@@ -56,7 +57,7 @@ struct Fields {
         c.c[d][q] = 2 * vn.c[d][q] - vm.c[d][q] + 1;
       }
     }
-    momentum.prepare(step, vn, vm, c, p, wall);
+    momentum.prepare(step, {vn, vm, c, p, wall});
   }
   double* cells() { return phi.data() + grid.x.n() * grid.y.n(); }
   static Fields& get() {
@@ -86,11 +87,11 @@ void triad(benchmark::State& state) {
 }
 
 void dgemm(benchmark::State& state) {
-  const BlasUse blas;
+  const fluid::pressure::BlasUse blas;
   const int n = 768;
   Array a(n * n, 1.0), b(n * n, 2.0), c(n * n, 0.0);
   for (auto _ : state) {
-    product(CblasNoTrans, CblasNoTrans, n, n, n, 1.0, a.data(), n, b.data(), n, c.data(), n);
+    fluid::pressure::product(CblasNoTrans, CblasNoTrans, n, n, n, 1.0, a.data(), n, b.data(), n, c.data(), n);
     benchmark::ClobberMemory();
   }
   count(state, double(n) * n, 0, 2.0 * n);
@@ -99,13 +100,13 @@ void dgemm(benchmark::State& state) {
 void rotation(benchmark::State& state) {
   Fields& f = Fields::get();
   Eigen::Matrix3d Q = Eigen::AngleAxisd(0.01, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
-  for (auto _ : state) rotateField(f.layout, Q, f.vn, f.out);
+  for (auto _ : state) rotateField(f.layout, f.team, Q, f.vn, f.out);
   count(state, f.grid.cells(), 120, 33);
 }
 
 void right_side_x_and_y_sweeps(benchmark::State& state) {
   Fields& f = Fields::get();
-  for (auto _ : state) f.momentum.prepare(f.step, f.vn, f.vm, f.c, f.p, f.wall);
+  for (auto _ : state) f.momentum.prepare(f.step, {f.vn, f.vm, f.c, f.p, f.wall});
   count(state, f.grid.cells(), 192, 330);
 }
 
@@ -117,13 +118,13 @@ void z_sweep(benchmark::State& state) {
 
 void net_outflow(benchmark::State& state) {
   Fields& f = Fields::get();
-  for (auto _ : state) netOutflow(f.grid, f.layout, f.vn, 1.0, f.cells());
+  for (auto _ : state) netOutflow(f.grid, f.layout, f.team, f.vn, 1.0, f.cells());
   count(state, f.grid.cells(), 40, 10);
 }
 
-void pressure(benchmark::State& state) {
+void pressureSolve(benchmark::State& state) {
   Fields& f = Fields::get();
-  netOutflow(f.grid, f.layout, f.vn, 1.0, f.cells());
+  netOutflow(f.grid, f.layout, f.team, f.vn, 1.0, f.cells());
   const Array source = f.phi;
   for (auto _ : state) {
     state.PauseTiming();
@@ -136,17 +137,17 @@ void pressure(benchmark::State& state) {
 
 void projection(benchmark::State& state) {
   Fields& f = Fields::get();
-  for (auto _ : state) subtractGradient(f.grid, f.layout, f.cells(), 1e-9, f.vn);
+  for (auto _ : state) subtractGradient(f.grid, f.layout, f.team, f.cells(), 1e-9, f.vn);
   count(state, f.grid.cells(), 56, 9);
 }
 
-void loads(benchmark::State& state) {
+void wingLoads(benchmark::State& state) {
   Fields& f = Fields::get();
   for (auto _ : state) {
     Loads l;
-    pressureLoads(f.grid, f.layout, WingPressure(f.grid, f.layout, f.p.data(), f.cells()), 1.2,
+    loads::pressureLoads(f.grid, f.layout, loads::WingPressure(f.grid, f.layout, f.p.data(), f.cells()), 1.2,
                   f.wall, l);
-    frictionLoads(f.grid, f.layout, f.momentum, f.vn, f.cells(), 1.0, f.wall, 1e-5, l);
+    loads::frictionLoads(f.grid, f.layout, f.momentum.metrics(), f.vn, f.cells(), 1.0, f.wall, 1e-5, l);
     benchmark::DoNotOptimize(l);
   }
   count(state, f.grid.cells(), 0, 0);
@@ -160,7 +161,7 @@ BENCHMARK(right_side_x_and_y_sweeps);
 BENCHMARK(z_sweep);
 BENCHMARK(rotation);
 BENCHMARK(net_outflow);
-BENCHMARK(pressure);
+BENCHMARK(pressureSolve)->Name("pressure");
 BENCHMARK(projection);
-BENCHMARK(loads);
+BENCHMARK(wingLoads)->Name("loads");
 BENCHMARK_MAIN();

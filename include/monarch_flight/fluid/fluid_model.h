@@ -16,21 +16,21 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// Pressure on the wing's surface, for pictures: a structured set of flat rectangles in wing axes.
 struct SurfacePressure {
   struct Facet {
-    float x, y, dx, dy;        ///< centre and size, wing axes [m]
-    float p_upper, p_lower;    ///< gauge pressure on the dorsal (-z) and ventral (+z) side [Pa]
+    float x, y, dx, dy;      ///< centre and size, wing axes [m]
+    float p_upper, p_lower;  ///< gauge pressure on the dorsal (-z) and ventral (+z) side [Pa]
   };
   std::vector<Facet> facets;
 };
 
 /// A point of a vortex (Q above a threshold), for pictures.
 struct VortexPoint {
-  float x, y, z;     ///< wing axes [m]
-  float q;           ///< second invariant Q of the velocity gradient [1/s^2]
-  float omega_y;     ///< spanwise vorticity, wing axes [1/s]
+  float x, y, z;  ///< wing axes [m]
+  float q;        ///< second invariant Q of the velocity gradient [1/s^2]
+  float omega_y;  ///< spanwise vorticity, wing axes [1/s]
 };
 
-/// Jacobian of the loads (force; moment) at level n+1, wing axes, with respect to the wing's velocity
-/// (v_W; omega_W) and its acceleration (a_W; alpha_W), each with the others kept.
+/// Jacobian of the loads (force; moment) at level n+1, wing axes, with respect to the wing's
+/// velocity (v_W; omega_W) and its acceleration (a_W; alpha_W), each with the others kept.
 struct LoadOperator {
   Matrix6d velocity = Matrix6d::Zero();      ///< [N s/m, N s, N m s/m, N m s]
   Matrix6d acceleration = Matrix6d::Zero();  ///< [kg, kg m, kg m, kg m^2]
@@ -38,25 +38,27 @@ struct LoadOperator {
 
 /// What a flow model says of itself after an evaluation.
 struct FluidReport {
-  double courant = 0.0;           ///< largest in-plane Courant number of the step (0: not applicable)
+  double courant = 0.0;  ///< largest in-plane Courant number of the step (0: not applicable)
   /// Largest net outflow of a cell over (its largest face x largest speed), of the committed flow;
   /// taken after steps 1, 51, 101, ... (0: not applicable).
   double divergence = 0.0;
-  /// Constants of the run for summary.json. The fluid participant fills them in its answer to START (from
-  /// FluidModel::cells, addedMass, operatorCost) and the coordinator hands that report on with step 0; later they are 0.
+  /// Constants of the run for summary.json. The fluid participant fills them in its answer to START
+  /// (from FluidModel::cells, addedMass, operatorCost) and the coordinator hands that report on
+  /// with step 0; later they are 0.
   long cells = 0;
   Matrix6d added_mass = Matrix6d::Zero();
-  int operator_cost = 0;  ///< FluidModel::operatorCost
+  int operator_cost = 0;   ///< FluidModel::operatorCost
   KernelTimes kernel_s{};  ///< wall time by kernel since `start` (0: no grid), of process 0
 };
 
 /// Of two flows: the larger Courant number and divergence, the sum of cells and times.
 FluidReport together(const FluidReport& a, const FluidReport& b);
 
-/// The one contract of all flow models. A model owns a committed state at time level n. Its air is at
-/// rest far away: the motions it is given are relative to the wind (relativeTo, prescribed_motion.h).
-/// `evaluate` is a pure function of (committed state, motion): it may be called any number of times with
-/// different or equal motions and changes nothing that a later evaluate could see.
+/// The one contract of all flow models. A model owns a committed state at time level n. Its air is
+/// at rest far away: the motions it is given are relative to the wind (relativeTo,
+/// prescribed_motion.h). `evaluate` is a pure function of (committed state, motion): it may be
+/// called any number of times with different or equal motions and changes nothing that a later
+/// evaluate could see.
 class FluidModel {
  public:
   virtual ~FluidModel() = default;

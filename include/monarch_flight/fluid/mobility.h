@@ -12,8 +12,9 @@ struct Axis;
 /// Round a sharp rim p ~ sqrt(r) sin(theta / 2), and velocity ~ 1 / sqrt(r): a difference of point
 /// values misses the mean gradient on the faces next to the rim by a fixed factor, and the plate
 /// acts as if it were 0.29 cells larger all round. The mobility is that factor, exact for the
-/// singular solution (times one number that stands for the faces farther away). It is an inertia of 1 / mobility: all else in the balance of momentum of such
-/// a face stands as elsewhere, so that slow, viscous flow round the rim does not feel it.
+/// singular solution (times one number that stands for the faces farther away). It is an inertia of
+/// 1 / mobility: all else in the balance of momentum of such a face stands as elsewhere, so that
+/// slow, viscous flow round the rim does not feel it.
 class Mobility {
  public:
   Mobility() = default;

@@ -9,6 +9,7 @@ namespace monarch_flight {
 
 namespace fluid {
 class Slab;
+class Team;
 }
 
 /// Direct solver of the Poisson equation on a Grid with a wing.
@@ -16,21 +17,21 @@ class Slab;
 /// Finds p with, for every cell c:
 ///   sum over its faces f of mobility_f (area_f / gap_f) (p_neighbour - p_c) = b_c ,
 /// where faces of the wing contribute nothing (mobility 0; beside its rim more than 1), outer faces
-/// contribute nothing (grid.open == false) or (area / half width) (0 - p_c) (grid.open == true). b is
-/// integrated over the cell. With grid.open == false b must sum to zero up to rounding (the residual
-/// mean is removed) and p has zero volume mean.
+/// contribute nothing (grid.open == false) or (area / half width) (0 - p_c) (grid.open == true). b
+/// is integrated over the cell. With grid.open == false b must sum to zero up to rounding (the
+/// residual mean is removed) and p has zero volume mean.
 ///
 /// Method: fast diagonalisation in x and y (generalised eigenvectors), tridiagonal elimination in z
-/// from both ends to the wing plane, dense capacitance matrix on the faces of the wing and of its rim
-/// between elimination and back-substitution: one forward and one inverse transform a solve.
+/// from both ends to the wing plane, dense capacitance matrix on the faces of the wing and of its
+/// rim between elimination and back-substitution: one forward and one inverse transform a solve.
 class PressureSolver {
  public:
   /// Sets BLAS to one thread for the whole process (repeatable bit for bit). Throws
   /// std::invalid_argument when the wing closes the whole plane of a closed box.
   explicit PressureSolver(const Grid& grid);
   /// On the processes of a slab, `solve` then sees the planes of this process
-  /// only, and all processes call it alike; `apply` is for one process that owns all.
-  PressureSolver(const Grid& grid, const fluid::Slab& slab);
+  /// only, by a team of threads, and all processes call it alike; `apply` is for one process that owns all.
+  PressureSolver(const Grid& grid, const fluid::Slab& slab, const fluid::Team& team);
   ~PressureSolver();
   PressureSolver(const PressureSolver&) = delete;
   PressureSolver& operator=(const PressureSolver&) = delete;
@@ -43,7 +44,7 @@ class PressureSolver {
   /// y = A p, the operator above, for checks (any p).
   void apply(const double* p, double* y) const;
 
-  int wingFaces() const;      ///< n_w
+  int wingFaces() const;  ///< n_w
   double setupSeconds() const;
 
  private:

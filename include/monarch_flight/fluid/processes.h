@@ -2,8 +2,9 @@
 
 namespace monarch_flight {
 
-/// The processes that mpirun started together, for as long as this object lives. A program that mpirun did
-/// not start is alone, and MPI is never touched. One object a program, made first in main.
+/// The processes that mpirun started together, for as long as this object lives. A program that
+/// mpirun did not start is alone, and MPI is never touched. One object a program, made first in
+/// main.
 ///
 /// Process 0 runs the program; all others call `serveFlow` and leave when it returns.
 class Processes {

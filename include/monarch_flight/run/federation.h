@@ -27,8 +27,8 @@ std::unique_ptr<Guidance> makeGuidance(const Case& c,
 PictureSettings picturesOf(const Case& c);
 /// What coordinator and participants need to know of the case.
 CoupledModel makeModel(const Case& c);
-/// The in-process participant for a role; the ROS nodes wrap exactly these. `checkpoints`: folder in
-/// which it keeps its part of them; `inbox`: as above, for guidance.
+/// The in-process participant for a role; the ROS nodes wrap exactly these. `checkpoints`: folder
+/// in which it keeps its part of them; `inbox`: as above, for guidance.
 std::unique_ptr<Participant> makeParticipant(Role role, const Case& c,
                                              const std::string& checkpoints,
                                              std::shared_ptr<CommandInbox> inbox = nullptr);

@@ -37,10 +37,10 @@ std::array<CommandLimits, kCommands> defaultCommandLimits(const std::string& con
 
 struct GuidanceSettings {
   GuidanceKind kind = GuidanceKind::kMotion;
-  WingbeatSettings wingbeat;                   ///< unless kMotion, kReplay or kPlugin
+  WingbeatSettings wingbeat;                     ///< unless kMotion, kReplay or kPlugin
   std::optional<ControllerSettings> controller;  ///< of kController
-  std::shared_ptr<const NumericTable> replay;  ///< ReplayGuidance::columns(), of kReplay
-  PluginChoice plugin;                         ///< of kPlugin
+  std::shared_ptr<const NumericTable> replay;    ///< ReplayGuidance::columns(), of kReplay
+  PluginChoice plugin;                           ///< of kPlugin
 };
 
 }  // namespace monarch_flight

@@ -29,7 +29,7 @@ class ProgressSink : public StepSink {
   std::chrono::steady_clock::time_point begin_, drawn_;
   std::uint32_t next_tenth_ = 1;
   std::uint32_t first_ = 0;  // step that was there at begin_
-  std::size_t width_ = 0;  // of the line on the terminal
+  std::size_t width_ = 0;    // of the line on the terminal
 };
 
 }  // namespace monarch_flight

@@ -66,7 +66,7 @@ class Summary {
   std::array<double, kRoles> wall_{};
   double exchange_ = 0.0, coupling_ = 0.0, outputs_ = 0.0;
   KernelTimes kernels_{};
-  double outputs_before_ = 0.0;    // of the parts flown before a resumption, as the next one
+  double outputs_before_ = 0.0;  // of the parts flown before a resumption, as the next one
   KernelTimes kernels_before_{};
   long cells_ = 0;
   Matrix6d added_mass_ = Matrix6d::Zero();

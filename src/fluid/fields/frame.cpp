@@ -36,27 +36,37 @@ WallVelocity combined(double a, const WallVelocity& x, double b, const WallVeloc
   return r;
 }
 
-void rotateField(const Layout& l, const Eigen::Matrix3d& Q, const Velocity& in, Velocity& out) {
-  for (int c = 0; c < 3; ++c) {
-    const int d = (c + 1) % 3, e = (c + 2) % 3;
-    const double qc = Q(c, c), qd = 0.25 * Q(c, d), qe = 0.25 * Q(c, e);
-    const std::ptrdiff_t sc = l.stride(c), sd = l.stride(d), se = l.stride(e);
-    const int first_i = c == 0, first_j = c == 1, first_k = c == 2;
-    for (int k = std::max(first_k, l.k0); k < l.k1; ++k) {
-      for (int j = first_j; j < l.ny; ++j) {
-        const std::ptrdiff_t row = l.at(0, j, k);
-        const double* __restrict a = in.c[c].data() + row;
-        const double* __restrict b = in.c[d].data() + row;
-        const double* __restrict g = in.c[e].data() + row;
-        double* __restrict o = out.c[c].data() + row;
-        for (int i = first_i; i < l.nx; ++i) {
-          const double mean_d = b[i] + b[i - sc] + b[i + sd] + b[i + sd - sc];
-          const double mean_e = g[i] + g[i - sc] + g[i + se] + g[i + se - sc];
-          o[i] = qc * a[i] + qd * mean_d + qe * mean_e;
-        }
-      }
-    }
+namespace {
+
+/// Row (j, k) of component c.
+void rotateRow(const Layout& l, const Eigen::Matrix3d& Q, int c, int j, int k, const Velocity& in,
+               Velocity& out) {
+  const int d = (c + 1) % 3, e = (c + 2) % 3;
+  const double qc = Q(c, c), qd = 0.25 * Q(c, d), qe = 0.25 * Q(c, e);
+  const std::ptrdiff_t sc = l.stride(c), sd = l.stride(d), se = l.stride(e), row = l.at(0, j, k);
+  const double* __restrict a = in.c[c].data() + row;
+  const double* __restrict b = in.c[d].data() + row;
+  const double* __restrict g = in.c[e].data() + row;
+  double* __restrict o = out.c[c].data() + row;
+#pragma omp simd
+  for (int i = c == 0; i < l.nx; ++i) {
+    const double mean_d = b[i] + b[i - sc] + b[i + sd] + b[i + sd - sc];
+    const double mean_e = g[i] + g[i - sc] + g[i + se] + g[i + se - sc];
+    o[i] = qc * a[i] + qd * mean_d + qe * mean_e;
   }
+}
+
+}  // namespace
+
+void rotateField(const Layout& l, const Team& team, const Eigen::Matrix3d& Q, const Velocity& in,
+                 Velocity& out) {
+  team.each(l.k0, l.k1, [&](int k, int) {
+    for (int j = 0; j < l.ny; ++j) {
+      rotateRow(l, Q, 0, j, k, in, out);
+      if (j > 0) rotateRow(l, Q, 1, j, k, in, out);
+      if (k > 0) rotateRow(l, Q, 2, j, k, in, out);
+    }
+  });
 }
 
 Eigen::Isometry3d placeOf(const WingMotion& motion) {

@@ -2,6 +2,7 @@
 #include <Eigen/Dense>
 
 #include "fluid/fields/field.h"
+#include "fluid/fields/team.h"
 #include "monarch_flight/insect/state.h"
 
 namespace monarch_flight::fluid {
@@ -37,6 +38,7 @@ WallVelocity combined(double a, const WallVelocity& x, double b, const WallVeloc
 /// out = Q in at every interior face: velocity resolved in axes turned by Q. Each component keeps
 /// its own faces; the other two are averaged to them, so a uniform field is turned exactly. Ghosts
 /// and outer faces of `out` stay as they are.
-void rotateField(const Layout& l, const Eigen::Matrix3d& Q, const Velocity& in, Velocity& out);
+void rotateField(const Layout& l, const Team& team, const Eigen::Matrix3d& Q, const Velocity& in,
+                 Velocity& out);
 
 }  // namespace monarch_flight::fluid

@@ -5,55 +5,64 @@
 
 namespace monarch_flight::fluid {
 
-void netOutflow(const Grid& grid, const Layout& l, const Velocity& v, double scale, double* b) {
+void netOutflow(const Grid& grid, const Layout& l, const Team& team, const Velocity& v,
+                double scale, double* b) {
   const double* hx = grid.x.width.data();
-  for (int k = l.k0; k < l.k1; ++k) {
+  team.each(l.k0, l.k1, [&](int k, int) {
     for (int j = 0; j < l.ny; ++j) {
       const double hy = scale * grid.y.width[j], hz = grid.z.width[k];
-      const std::ptrdiff_t row = l.at(0, j, k);
+      const std::ptrdiff_t row = l.at(0, j, k), sy = l.sy, sz = l.sz;
       const double* __restrict u = v.c[0].data() + row;
       const double* __restrict s = v.c[1].data() + row;
       const double* __restrict w = v.c[2].data() + row;
       double* __restrict o = b + (static_cast<std::ptrdiff_t>(k - l.k0) * l.ny + j) * l.nx;
       const double ax = hy * hz, ay = scale * hz;
+#pragma omp simd
       for (int i = 0; i < l.nx; ++i) {
         o[i] = ax * (u[i + 1] - u[i]) +
-               hx[i] * (ay * (s[i + l.sy] - s[i]) + hy * (w[i + l.sz] - w[i]));
+               hx[i] * (ay * (s[i + sy] - s[i]) + hy * (w[i + sz] - w[i]));
       }
     }
-  }
+  });
 }
 
-void subtractGradient(const Grid& grid, const Layout& l, const double* phi, double scale,
-                      Velocity& v) {
+namespace {
+
+/// v -= m grad (m = 1: null) of a row, the difference `s` apart; `scale` by 1 / gap: of each point
+/// along x, of the row across it.
+void subtractDifference(int i0, int nx, const double* q, std::ptrdiff_t s, double scale,
+                        const double* gap, const double* mobility, double* v) {
+  if (mobility == nullptr) {
+#pragma omp simd
+    for (int i = i0; i < nx; ++i) v[i] -= (gap ? scale / gap[i] : scale) * (q[i] - q[i - s]);
+    return;
+  }
+  for (int i = i0; i < nx; ++i)
+    v[i] -= mobility[i] * (gap ? scale / gap[i] : scale) * (q[i] - q[i - s]);
+}
+
+}  // namespace
+
+void subtractGradient(const Grid& grid, const Layout& l, const Team& team, const double* phi,
+                      double scale, Velocity& v) {
   const std::ptrdiff_t py = l.nx, pz = static_cast<std::ptrdiff_t>(l.nx) * l.ny;
-  for (int k = l.k0; k < l.k1; ++k) {
+  team.each(l.k0, l.k1, [&](int k, int) {
     for (int j = 0; j < l.ny; ++j) {
       const std::ptrdiff_t row = l.at(0, j, k);
-      const double* __restrict q = phi + (k - l.k0) * pz + j * py;
-      double* __restrict u = v.c[0].data() + row;
-      double* __restrict s = v.c[1].data() + row;
-      double* __restrict w = v.c[2].data() + row;
-      for (int i = 1; i < l.nx; ++i) u[i] -= scale / grid.x.gap[i] * (q[i] - q[i - 1]);
-      const double gy = scale / grid.y.gap[j], gz = scale / grid.z.gap[k];
+      const double* q = phi + (k - l.k0) * pz + j * py;
+      const auto mobility = [&](int c) { return grid.mobility.row(c, j, k); };
+      subtractDifference(1, l.nx, q, 1, scale, grid.x.gap.data(), mobility(0),
+                         v.c[0].data() + row);
       if (j > 0) {
-        for (int i = 0; i < l.nx; ++i) s[i] -= gy * (q[i] - q[i - py]);
+        subtractDifference(0, l.nx, q, py, scale / grid.y.gap[j], nullptr, mobility(1),
+                           v.c[1].data() + row);
       }
       if (k > 0) {
-        for (int i = 0; i < l.nx; ++i) w[i] -= gz * (q[i] - q[i - pz]);
-      }
-      if (const double* m = grid.mobility.row(0, j, k)) {
-        for (int i = 1; i < l.nx; ++i)
-          u[i] -= (m[i] - 1) * scale / grid.x.gap[i] * (q[i] - q[i - 1]);
-      }
-      if (const double* m = j > 0 ? grid.mobility.row(1, j, k) : nullptr) {
-        for (int i = 0; i < l.nx; ++i) s[i] -= (m[i] - 1) * gy * (q[i] - q[i - py]);
-      }
-      if (const double* m = grid.mobility.row(2, j, k)) {
-        for (int i = 0; i < l.nx; ++i) w[i] -= (m[i] - 1) * gz * (q[i] - q[i - pz]);
+        subtractDifference(0, l.nx, q, pz, scale / grid.z.gap[k], nullptr, mobility(2),
+                           v.c[2].data() + row);
       }
     }
-  }
+  });
   if (!grid.open) return;
   auto cell = [&](int i, int j, int k) { return phi[(k - l.k0) * pz + j * py + i]; };
   for (int k = l.k0; k < l.k1; ++k) {

@@ -4,17 +4,19 @@
 
 #include "fluid/fields/field.h"
 #include "fluid/fields/slab.h"
+#include "fluid/fields/team.h"
 
 namespace monarch_flight::fluid {
 
 /// Fields without ghosts (b, phi) hold the cells of this process: nx * ny * (k1 - k0), x fastest.
 
 /// b = scale * net outflow of each cell.
-void netOutflow(const Grid& grid, const Layout& l, const Velocity& v, double scale, double* b);
+void netOutflow(const Grid& grid, const Layout& l, const Team& team, const Velocity& v,
+                double scale, double* b);
 /// v -= scale grad phi on all faces but the wing's; outer faces too when the boundary is open.
 /// In front of phi stands the plane k0 - 1 of the process below (unused at the bottom).
-void subtractGradient(const Grid& grid, const Layout& l, const double* phi, double scale,
-                      Velocity& v);
+void subtractGradient(const Grid& grid, const Layout& l, const Team& team, const double* phi,
+                      double scale, Velocity& v);
 /// Outer faces and ghosts of this process's planes: zero (rest), or no
 /// change along the normal (open).
 void fillOuter(const Grid& grid, const Layout& l, Velocity& v);

@@ -46,7 +46,7 @@ void NavierStokes::fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isome
 
 void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame) {
   const Eigen::Matrix3d Q = frame.transpose() * level.frame;
-  rotateField(layout_, Q, v, v_star_);
+  rotateField(layout_, team_, Q, v, v_star_);
   std::swap(v, v_star_);
   level.frame = frame;
   level.wall = rotated(level.wall, Q);
@@ -57,32 +57,35 @@ void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& f
 
 void NavierStokes::convectingField(const GridVelocity& g) {
   const double extrapolation = step_.second_order ? 1.0 : 0.0;
-  for (int c = 0; c < 3; ++c) {
-    for (int k = std::max(0, layout_.k0 - 1); k <= std::min(layout_.k1, layout_.nz - (c != 2));
-         ++k) {
-      const double z = c == 2 ? grid_.z.face[k] : grid_.z.centre[k];
-      for (int j = 0; j < layout_.ny + (c == 1); ++j) {
-        const double y = c == 1 ? grid_.y.face[j] : grid_.y.centre[j];
-        const std::ptrdiff_t row = layout_.at(0, j, k);
-        const double* __restrict a = vn_.c[c].data() + row;
-        const double* __restrict b = vm_.c[c].data() + row;
-        const double* __restrict x = (c == 0 ? grid_.x.face : grid_.x.centre).data();
-        double* __restrict o = convecting_.c[c].data() + row;
-        const double g0 = g.at(c, 0, y, z), gx = g.at(c, 1, y, z) - g0;
-        const int n = layout_.nx + (c == 0);
-        for (int i = 0; i < n; ++i) o[i] = a[i] + extrapolation * (a[i] - b[i]) - (g0 + gx * x[i]);
-      }
+  auto row = [&](int c, int j, int k) {
+    const double z = c == 2 ? grid_.z.face[k] : grid_.z.centre[k];
+    const double y = c == 1 ? grid_.y.face[j] : grid_.y.centre[j];
+    const std::ptrdiff_t at = layout_.at(0, j, k);
+    const double* __restrict a = vn_.c[c].data() + at;
+    const double* __restrict b = vm_.c[c].data() + at;
+    const double* __restrict x = (c == 0 ? grid_.x.face : grid_.x.centre).data();
+    double* __restrict o = convecting_.c[c].data() + at;
+    const double g0 = g.at(c, 0, y, z), gx = g.at(c, 1, y, z) - g0;
+    const int n = layout_.nx + (c == 0);
+#pragma omp simd
+    for (int i = 0; i < n; ++i) o[i] = a[i] + extrapolation * (a[i] - b[i]) - (g0 + gx * x[i]);
+  };
+  const int begin = std::max(0, layout_.k0 - 1), end = std::min(layout_.k1, layout_.nz) + 1;
+  team_.each(begin, end, [&](int k, int) {
+    for (int c = 0; c < 3; ++c) {
+      if (k > layout_.nz - (c != 2)) continue;
+      for (int j = 0; j < layout_.ny + (c == 1); ++j) row(c, j, k);
     }
-  }
+  });
   fillWing(grid_, layout_, WallVelocity{}, convecting_);  // no air through the wing
 }
 
 /// Largest in-plane Courant number over the wing and half a reference length above and below it.
-double NavierStokes::courant() const {
-  double worst = 0;
-  for (int k = layout_.k0; k < layout_.k1; ++k) {
-    if (std::abs(grid_.z.centre[k]) > 0.5 * reference_length_) continue;
-    for (int j = 0; j < layout_.ny; ++j) {
+double NavierStokes::courant() {
+  team_.each(layout_.k0, layout_.k1, [&](int k, int) {
+    double worst = 0;
+    const bool near = std::abs(grid_.z.centre[k]) <= 0.5 * reference_length_;
+    for (int j = 0; near && j < layout_.ny; ++j) {
       for (int i = 0; i < layout_.nx; ++i) {
         if (!grid_.isWing(i, j)) continue;
         const std::ptrdiff_t q = layout_.at(i, j, k);
@@ -93,8 +96,9 @@ double NavierStokes::courant() const {
         worst = std::max({worst, cx / grid_.x.width[i], cy / grid_.y.width[j]});
       }
     }
-  }
-  return slab_.max(worst) * dt_;
+    rates_[k - layout_.k0] = worst;
+  });
+  return slab_.max(*std::max_element(rates_.begin(), rates_.end())) * dt_;
 }
 
 /// What a step does before any guess of the interface: (1) predict the grid's motion, (2) turn both
@@ -130,7 +134,7 @@ void NavierStokes::prepareStep() {
       << ": use more steps a flap, a coarser grid, or raise the limit";
     throw NumericalError(s.str());
   }
-  momentum_.prepare(step_, vn_, vm_, convecting_, p_, level_n_.wall);
+  momentum_.prepare(step_, {vn_, vm_, convecting_, p_, level_n_.wall});
   timer.lap(Kernel::kMomentumXY);
 }
 
@@ -152,7 +156,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   fillHalo(layout_, slab_, v_star_.c[2]);
   timer.lap(Kernel::kMomentumZ);
 
-  netOutflow(grid_, layout_, v_star_, air_.rho / step_.a, phi());
+  netOutflow(grid_, layout_, team_, v_star_, air_.rho / step_.a, phi());
   timer.lap(Kernel::kOutflow);
   pressure_.solve(phi(), report_.kernel_s);
   timer.restart();
@@ -164,7 +168,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   Loads loads;
   loads::pressureLoads(grid_, layout_, loads::WingPressure(grid_, layout_, p_.data(), phi()),
                        air_.rho, acceleration_, loads);
-  loads::frictionLoads(grid_, layout_, momentum_, v_star_, phi(), step_.a / air_.rho, next_.wall,
+  loads::frictionLoads(grid_, layout_, momentum_.metrics(), v_star_, phi(), step_.a / air_.rho, next_.wall,
                        air_.mu, loads);
   loads::rimLoads(grid_, layout_, momentum_, convecting_, v_star_, air_.rho / step_.a, row_.data(),
                   loads);
@@ -179,16 +183,16 @@ void NavierStokes::commit() {
   if (!evaluated_) throw std::logic_error("NavierStokes::commit without evaluate");
   LapTimer timer(report_.kernel_s);
   fillPhiHalo();
-  subtractGradient(grid_, layout_, phi(), step_.a / air_.rho, v_star_);
+  subtractGradient(grid_, layout_, team_, phi(), step_.a / air_.rho, v_star_);
   fillHalo(layout_, slab_, v_star_);
-  for (int k = layout_.k0; k < layout_.k1; ++k) {
+  team_.each(layout_.k0, layout_.k1, [&](int k, int) {
     for (int j = 0; j < layout_.ny; ++j) {
       double* p = p_.data() + layout_.at(0, j, k);
       const double* f =
           phi() + (static_cast<std::ptrdiff_t>(k - layout_.k0) * layout_.ny + j) * layout_.nx;
       for (int i = 0; i < layout_.nx; ++i) p[i] += f[i];
     }
-  }
+  });
   fillHalo(layout_, slab_, p_);
   std::swap(vm_, vn_);      // n becomes n-1
   std::swap(vn_, v_star_);  // v* has become n

@@ -30,7 +30,7 @@ class NavierStokes : public FluidModel {
  public:
   /// On the processes of `comm` (default: this one alone); all of them call every function alike.
   NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit,
-               MPI_Comm comm = MPI_COMM_NULL);
+               MPI_Comm comm = MPI_COMM_NULL, int threads = 1);
 
   void start(const WingMotion& motion, double dt) override;
   Loads evaluate(const WingMotion& next) override;
@@ -62,7 +62,7 @@ class NavierStokes : public FluidModel {
   void prepareStep();
   void turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame);
   void convectingField(const GridVelocity& grid_velocity);
-  double courant() const;
+  double courant();
   Matrix6d computeAddedMass();
   void potentialStart();
   void fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isometry3d& place, double t,
@@ -80,6 +80,7 @@ class NavierStokes : public FluidModel {
 
   Grid grid_;
   Slab slab_;
+  Team team_;
   Layout layout_;
   Air air_;
   double reference_length_, courant_limit_;
@@ -102,7 +103,8 @@ class NavierStokes : public FluidModel {
   Velocity convecting_, v_star_;
   Array phi_;  ///< one plane of the process below, then this process's cells
   std::ptrdiff_t phi_start_;
-  Array row_;  ///< scratch of the loads
+  Array row_;    ///< scratch of the loads
+  Array rates_;  ///< of the planes: largest Courant number by dt
   Eigen::Matrix3d predicted_frame_;
   Eigen::Isometry3d predicted_place_ = Eigen::Isometry3d::Identity();
   Level next_;

@@ -10,15 +10,16 @@
 namespace monarch_flight::fluid {
 
 NavierStokes::NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit,
-                           MPI_Comm comm)
+                           MPI_Comm comm, int threads)
     : grid_(std::move(grid)),
       slab_(comm == MPI_COMM_NULL ? Slab(grid_.z.n()) : Slab(comm, grid_.z.n())),
+      team_(threads),
       layout_(grid_, slab_),
       air_(air),
       reference_length_(reference_length),
       courant_limit_(courant_limit),
-      pressure_(grid_, slab_),
-      momentum_(grid_, layout_, slab_),
+      pressure_(grid_, slab_, team_),
+      momentum_(grid_, layout_, slab_, team_),
       vn_(layout_),
       vm_(layout_),
       p_(layout_.size(), 0.0),
@@ -26,6 +27,7 @@ NavierStokes::NavierStokes(Grid grid, const Air& air, double reference_length, d
       v_star_(layout_) {
   const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(layout_.nx) * layout_.ny;
   row_.assign(layout_.nx, 0.0);
+  rates_.assign(slab_.planes(), 0.0);
   phi_start_ = (plane + 7) / 8 * 8;
   phi_.assign(phi_start_ + plane * slab_.planes(), 0.0);
   added_mass_ = computeAddedMass();
@@ -38,7 +40,7 @@ Matrix6d NavierStokes::computeAddedMass() {
     (column == 2 ? unit.V.z() : column == 3 ? unit.omega.x() : unit.omega.y()) = 1;
     const WallVelocity wall = wallVelocity(unit);
     fillWing(grid_, layout_, wall, v_star_);
-    netOutflow(grid_, layout_, v_star_, air_.rho, phi());
+    netOutflow(grid_, layout_, team_, v_star_, air_.rho, phi());
     pressure_.solve(phi());
     Loads loads;
     pressureLoads(grid_, layout_, loads::WingPressure(grid_, layout_, nullptr, phi()), air_.rho,
@@ -80,10 +82,10 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
 /// The wing is set in motion at once: the air takes up the potential flow of its normal velocity.
 void NavierStokes::potentialStart() {
   fillWing(grid_, layout_, level_n_.wall, vn_);
-  netOutflow(grid_, layout_, vn_, 1.0, phi());
+  netOutflow(grid_, layout_, team_, vn_, 1.0, phi());
   pressure_.solve(phi());
   fillPhiHalo();
-  subtractGradient(grid_, layout_, phi(), 1.0, vn_);
+  subtractGradient(grid_, layout_, team_, phi(), 1.0, vn_);
   fillHalo(layout_, slab_, vn_);
 }
 

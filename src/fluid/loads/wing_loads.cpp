@@ -27,7 +27,7 @@ void pressureLoads(const Grid& grid, const Layout& l, const WingPressure& p, dou
   loads.moment_pressure = {mx, my, 0};
 }
 
-void frictionLoads(const Grid& grid, const Layout& l, const momentum::Momentum& momentum,
+void frictionLoads(const Grid& grid, const Layout& l, const momentum::Metrics& metrics,
                    const Velocity& v, const double* phi, double scale, const WallVelocity& wall,
                    double mu, Loads& loads) {
   const int kw = grid.k_wing;
@@ -38,7 +38,7 @@ void frictionLoads(const Grid& grid, const Layout& l, const momentum::Momentum& 
     const std::ptrdiff_t s = c == 0 ? 1 : l.nx;
     for (int j = c == 1; j < l.ny; ++j) {
       for (int i = c == 0; i < l.nx; ++i) {
-        const double b = momentum.blocked(c, i, j);
+        const double b = metrics.blockedRow(c, j)[i];
         if (b == 0) continue;
         const double x = c == 0 ? grid.x.face[i] : grid.x.centre[i];
         const double y = c == 1 ? grid.y.face[j] : grid.y.centre[j];
@@ -61,7 +61,7 @@ void frictionLoads(const Grid& grid, const Layout& l, const momentum::Momentum& 
   loads.moment_friction = {0, 0, mz};
 }
 
-void rimLoads(const Grid& grid, const Layout& l, momentum::Momentum& momentum,
+void rimLoads(const Grid& grid, const Layout& l, const momentum::Momentum& momentum,
               const Velocity& convecting, const Velocity& v_star, double rho_by_a, double* row,
               Loads& loads) {
   if (grid.k_wing < l.k0 || grid.k_wing >= l.k1) return;
@@ -69,7 +69,7 @@ void rimLoads(const Grid& grid, const Layout& l, momentum::Momentum& momentum,
   for (int j = 0; j < l.ny; ++j) {
     const std::uint8_t* wing = grid.wing.data() + static_cast<std::size_t>(j) * l.nx;
     if (std::find(wing, wing + l.nx, 1) == wing + l.nx) continue;
-    momentum.normalTransport(convecting, v_star, j, row);
+    momentum::normalTransport(momentum.metrics(), momentum.step(), convecting, v_star, j, row);
     const double side = rho_by_a * grid.z.gap[grid.k_wing] * grid.y.width[j];
     for (int i = 0; i < l.nx; ++i) {
       const double df = -side * grid.x.width[i] * row[i];

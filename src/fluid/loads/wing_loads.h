@@ -42,13 +42,13 @@ class WingPressure {
 void pressureLoads(const Grid& grid, const Layout& l, const WingPressure& p, double rho,
                    const WallVelocity& acceleration, Loads& loads);
 /// Force and moment of the shear on both sides. `v` minus `scale` grad `phi` is the velocity.
-void frictionLoads(const Grid& grid, const Layout& l, const momentum::Momentum& momentum,
+void frictionLoads(const Grid& grid, const Layout& l, const momentum::Metrics& metrics,
                    const Velocity& v, const double* phi, double scale, const WallVelocity& wall,
                    double mu, Loads& loads);
 /// Adds to the friction what the air on the wing's own faces (half a cell on both sides) takes from
 /// its neighbours by normal stress and convection: next to nothing inside the outline, but not at
 /// the rim. With it the loads are what the air around the wing loses. `row` is scratch of nx.
-void rimLoads(const Grid& grid, const Layout& l, momentum::Momentum& momentum,
+void rimLoads(const Grid& grid, const Layout& l, const momentum::Momentum& momentum,
               const Velocity& convecting, const Velocity& v_star, double rho_by_a, double* row,
               Loads& loads);
 /// Of all processes, on each of them.

@@ -1,77 +1,208 @@
 // The x and y factors, plane by plane.
+#include "fluid/momentum/plane.h"
+
 #include <algorithm>
 
-#include "fluid/momentum/interleave.h"
-#include "fluid/momentum/momentum.h"
-
 namespace monarch_flight::fluid::momentum {
+namespace {
 
-void Momentum::fixWingFaces(const WallVelocity& wall_change, int j, Row row, double* d) const {
-  for (int i = 0; i < layout_.nx; ++i) {
-    if (!grid_.isWing(i, j)) continue;
-    row.lower[i] = row.upper[i] = 0;
-    d[i] = wall_change.at(2, grid_.x.centre[i], grid_.y.centre[j]);
+/// Thomas' algorithm along x for kLines neighbouring rows, one in each lane; off-diagonals are formed
+/// from the velocities through the faces on the way. All arrays are interleaved.
+template <bool kMobile>
+void eliminateX(const FaceStencil& stencil, const Metrics::Direction& axis, int i0, int i1,
+                const double* sum, const double* mobility, double* __restrict gamma,
+                double* __restrict side) {
+  constexpr int kPacks = kLines / kPack;
+  const double* inv_dist = axis.inverse_distance.data();
+  const double* inv_width = axis.inverse_width.data();
+  Pack above[kPacks], gamma_before[kPacks] = {}, side_before[kPacks] = {};
+  for (int p = 0; p < kPacks; ++p) {
+    Pack below;
+    stencil(load(sum + i0 * kLines + p * kPack), inv_dist[i0], above[p], below);
   }
-}
-
-/// Thomas' algorithm along x for up to eight neighbouring rows, one in each lane.
-void Momentum::sweepX(int component, double* rows, int lines) {
-  const int i0 = first(component, 0), i1 = last(component, 0), n = i1 + 1;
-  double* __restrict g = lane_gamma_.data();
-  double* __restrict d = lane_side_.data();
-  const double* __restrict lo = lane_lower_.data();
-  const double* __restrict up = lane_upper_.data();
-  interleave(x_lower_.data(), layout_.sy, lines, n, lane_lower_.data());
-  interleave(x_upper_.data(), layout_.sy, lines, n, lane_upper_.data());
-  interleave(rows, layout_.sy, lines, n, d);
-  for (int l = 0; l < kLines; ++l) {
-    const int q = i0 * kLines + l;
-    const double inv = 1 / (1 - lo[q] - up[q]);
-    g[q] = up[q] * inv;
-    d[q] *= inv;
-  }
-  for (int i = i0 + 1; i <= i1; ++i) {
-    for (int l = 0; l < kLines; ++l) {
-      const int q = i * kLines + l, before = q - kLines;
-      const double inv = 1 / (1 - lo[q] - up[q] - lo[q] * g[before]);
-      g[q] = up[q] * inv;
-      d[q] = (d[q] - lo[q] * d[before]) * inv;
+  for (int i = i0; i <= i1; ++i) {
+    for (int p = 0; p < kPacks; ++p) {
+      const int q = i * kLines + p * kPack;
+      Pack above_next, below_next;
+      stencil(load(sum + q + kLines), inv_dist[i + 1], above_next, below_next);
+      Pack lower = -inv_width[i] * above[p], upper = inv_width[i] * below_next;
+      if (kMobile) {
+        const Pack m = load(mobility + q);
+        lower *= m;
+        upper *= m;
+      }
+      const Pack inv = 1 / (1 - lower - upper - lower * gamma_before[p]);
+      gamma_before[p] = upper * inv;
+      side_before[p] = (load(side + q) - lower * side_before[p]) * inv;
+      store(gamma_before[p], gamma + q);
+      store(side_before[p], side + q);
+      above[p] = above_next;
     }
   }
-  for (int q = i1 * kLines - 1; q >= i0 * kLines; --q) d[q] -= g[q] * d[q + kLines];
-  separate(d, lines, n, rows, layout_.sy);
+  for (int i = i1 - 1; i >= i0; --i) {
+    for (int p = 0; p < kPacks; ++p) {
+      const int q = i * kLines + p * kPack;
+      side_before[p] = load(side + q) - load(gamma + q) * side_before[p];
+      store(side_before[p], side + q);
+    }
+  }
 }
 
-/// One row of the elimination along y; rows of a plane in ascending order.
-void Momentum::eliminateY(int component, int j, Row row, double* __restrict d) {
-  const int i0 = first(component, 0), i1 = last(component, 0);
-  const bool is_end = j == first(component, 1);
-  const double* __restrict lo = row.lower;
-  const double* __restrict up = row.upper;
-  double* __restrict g = gamma_.data() + j * layout_.sy;
-  const double* __restrict g_before = is_end ? zero_.data() : g - layout_.sy;
-  const double* __restrict d_before = is_end ? zero_.data() : d - layout_.sy;
+/// One row of the elimination along y.
+void eliminateY(int i0, int i1, const double* __restrict lower, const double* __restrict upper,
+                const double* __restrict gamma_before, const double* __restrict side_before,
+                double* __restrict gamma, double* __restrict side) {
+#pragma omp simd
   for (int i = i0; i <= i1; ++i) {
-    const double inv = 1 / (1 - lo[i] - up[i] - lo[i] * g_before[i]);
-    g[i] = up[i] * inv;
-    d[i] = (d[i] - lo[i] * d_before[i]) * inv;
+    const double inv = 1 / (1 - lower[i] - upper[i] - lower[i] * gamma_before[i]);
+    gamma[i] = upper[i] * inv;
+    side[i] = (side[i] - lower[i] * side_before[i]) * inv;
   }
 }
 
-void Momentum::substituteY(int component, int k) {
-  const int i0 = first(component, 0), i1 = last(component, 0);
-  for (int j = last(component, 1) - 1; j >= first(component, 1); --j) {
-    double* __restrict d = delta_.c[component].data() + layout_.at(0, j, k);
-    const double* __restrict g = gamma_.data() + j * layout_.sy;
-    const double* __restrict above = d + layout_.sy;
-    for (int i = i0; i <= i1; ++i) d[i] -= g[i] * above[i];
+/// The first row: nothing before it.
+void eliminateFirstY(int i0, int i1, const double* __restrict lower, const double* __restrict upper,
+                     double* __restrict gamma, double* __restrict side) {
+#pragma omp simd
+  for (int i = i0; i <= i1; ++i) {
+    const double inv = 1 / (1 - lower[i] - upper[i]);
+    gamma[i] = upper[i] * inv;
+    side[i] *= inv;
   }
 }
 
-void Momentum::solveRows(int component, int j, int k, int lines) {
-  double* rows = delta_.c[component].data() + layout_.at(0, j, k);
-  sweepX(component, rows, lines);
-  for (int l = 0; l < lines; ++l) eliminateY(component, j + l, yRow(l), rows + l * layout_.sy);
+void substituteRow(int i0, int i1, const double* __restrict gamma, const double* __restrict solved,
+                   double* __restrict side) {
+#pragma omp simd
+  for (int i = i0; i <= i1; ++i) side[i] -= gamma[i] * solved[i];
+}
+
+/// Both factors of `lines` rows from row j on, whose faces and off-diagonals stand in the scratch.
+void solveRows(const Metrics& m, const FaceStencil& stencil, int component, int j, int k, int lines,
+               double* rows, PlaneScratch& s) {
+  const Layout& l = m.layout;
+  const int i0 = m.first(component, 0), i1 = m.last(component, 0);
+  const bool mobile = m.grid.mobility.row(component, j, k) != nullptr;
+  interleave(s.x_sum.data() + 8, l.sy, lines, i1 + 2, s.lane_sum.data());
+  interleave(rows, l.sy, lines, i1 + 1, s.lane_side.data());
+  if (mobile) {
+    for (int n = 0; n < lines; ++n) {
+      const double* row = m.grid.mobility.row(component, j + n, k);
+      std::copy(row, row + l.nx, s.x_mobility.data() + n * l.sy + 8);
+    }
+    interleave(s.x_mobility.data() + 8, l.sy, lines, i1 + 1, s.lane_mobility.data());
+  }
+  (mobile ? eliminateX<true> : eliminateX<false>)(stencil, m.axis[component][0], i0, i1,
+                                                  s.lane_sum.data(), s.lane_mobility.data(),
+                                                  s.lane_gamma.data(), s.lane_side.data());
+  separate(s.lane_side.data(), lines, i1 + 1, rows, l.sy);
+  for (int n = 0; n < lines; ++n) {
+    double* lower = s.y_lower.data() + n * l.sy + 8;
+    double* upper = s.y_upper.data() + n * l.sy + 8;
+    if (mobile) {
+      const double* row = m.grid.mobility.row(component, j + n, k);
+      for (int i = i0; i <= i1; ++i) lower[i] *= row[i], upper[i] *= row[i];
+    }
+    double* side = rows + n * l.sy;
+    double* gamma = s.gamma_y.data() + (j + n) * l.sy + 8;
+    if (j + n == m.first(component, 1)) {
+      eliminateFirstY(i0, i1, lower, upper, gamma, side);
+    } else {
+      eliminateY(i0, i1, lower, upper, gamma - l.sy, side - l.sy, gamma, side);
+    }
+  }
+}
+
+void substituteY(const Metrics& m, int component, double* plane, const PlaneScratch& s) {
+  const std::ptrdiff_t sy = m.layout.sy;
+  for (int j = m.last(component, 1) - 1; j >= m.first(component, 1); --j) {
+    double* row = plane + j * sy;
+    substituteRow(m.first(component, 0), m.last(component, 0), s.gamma_y.data() + j * sy + 8,
+                  row + sy, row);
+  }
+}
+
+/// Rows of `lines` in ascending order, kLines of them at a time: fill(row, scratch's line).
+template <class Fill, class Solve>
+void byBlocks(const Metrics& m, int component, Fill fill, Solve solve) {
+  const int end = m.last(component, 1) + 1;
+  for (int j = m.first(component, 1); j < end; j += kLines) {
+    const int lines = std::min(kLines, end - j);
+    for (int n = 0; n < lines; ++n) fill(j + n, n);
+    solve(j, lines);
+  }
+}
+
+/// Where row j, the n-th of a block, puts its factors.
+RowFactors factorsOf(const Layout& l, int j, int n, PlaneScratch& s) {
+  const std::ptrdiff_t at = n * l.sy + 8;
+  const int here = j % 2, next = 1 - here;
+  return {s.x_sum.data() + at,       s.y_lower.data() + at,   s.y_upper.data() + at,
+          s.y_sum[here].data() + 8,  s.y_above[here].data() + 8,
+          s.y_sum[next].data() + 8,  s.y_above[next].data() + 8};
+}
+
+void firstFaces(const Metrics& m, const MomentumStep& step, const Velocity& c, int component, int k,
+                PlaneScratch& s) {
+  const int j = m.first(component, 1), here = j % 2;
+  firstFacesY(m, step, c, component, j, k, s.y_sum[here].data() + 8, s.y_above[here].data() + 8);
+}
+
+}  // namespace
+
+PlaneScratch::PlaneScratch(const Layout& layout) {
+  for (Array* block : {&x_sum, &x_mobility, &y_lower, &y_upper, &lane_sum, &lane_mobility,
+                       &lane_gamma, &lane_side})
+    block->assign(kLines * layout.sy, 0.0);
+  for (Array* row : {&y_sum[0], &y_sum[1], &y_above[0], &y_above[1]}) row->assign(layout.sy, 0.0);
+  gamma_y.assign(layout.sz, 0.0);
+}
+
+void solvePlane(const Metrics& m, const MomentumStep& step, const ExplicitSide& side, int component,
+                int k, double* delta, PlaneScratch& s) {
+  const FaceStencil stencil(step);
+  double* plane = delta + m.layout.at(0, 0, k);
+  firstFaces(m, step, side.c, component, k, s);
+  byBlocks(
+      m, component,
+      [&](int j, int n) {
+        formRow(m, step, side, component, j, k, plane + j * m.layout.sy,
+                factorsOf(m.layout, j, n, s));
+      },
+      [&](int j, int lines) {
+        solveRows(m, stencil, component, j, k, lines, plane + j * m.layout.sy, s);
+      });
+  substituteY(m, component, plane, s);
+}
+
+void formWingPlane(const Metrics& m, const MomentumStep& step, const ExplicitSide& side,
+                   double* delta, PlaneScratch& s) {
+  const int kw = m.grid.k_wing;
+  firstFaces(m, step, side.c, 2, kw, s);
+  for (int j = 0; j < m.layout.ny; ++j)
+    formRow(m, step, side, 2, j, kw, delta + m.layout.at(0, j, kw), factorsOf(m.layout, j, 0, s));
+}
+
+void solveWingPlane(const Metrics& m, const MomentumStep& step, const Velocity& c,
+                    const WallVelocity& wall_change, double* delta, PlaneScratch& s) {
+  const int kw = m.grid.k_wing;
+  const FaceStencil stencil(step);
+  double* plane = delta + m.layout.at(0, 0, kw);
+  firstFaces(m, step, c, 2, kw, s);
+  byBlocks(
+      m, 2,
+      [&](int j, int n) {
+        formFactors(m, step, c, 2, j, kw, factorsOf(m.layout, j, n, s));
+        double* row = plane + j * m.layout.sy;
+        for (int i = 0; i < m.layout.nx; ++i) {  // mobility 0: such a face is linked to nothing
+          if (m.grid.isWing(i, j))
+            row[i] = wall_change.at(2, m.grid.x.centre[i], m.grid.y.centre[j]);
+        }
+      },
+      [&](int j, int lines) {
+        solveRows(m, stencil, 2, j, kw, lines, plane + j * m.layout.sy, s);
+      });
+  substituteY(m, 2, plane, s);
 }
 
 }  // namespace monarch_flight::fluid::momentum

@@ -75,19 +75,19 @@ void take(int count) {
 
 }  // namespace
 
-BlasUse::BlasUse() {
+BlasUse::BlasUse(int threads) : threads_(threads) {
   const std::lock_guard<std::mutex> lock(guard);
-  if (blas_memory_alloc != nullptr && uses + 1 > taken) {
-    take(uses + 1);
-    taken = uses + 1;
+  if (blas_memory_alloc != nullptr && uses + threads_ > taken) {
+    take(uses + threads_);
+    taken = uses + threads_;
   }
   if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
-  ++uses;
+  uses += threads_;
 }
 
 BlasUse::~BlasUse() {
   const std::lock_guard<std::mutex> lock(guard);
-  --uses;
+  uses -= threads_;
 }
 
 }  // namespace monarch_flight::fluid::pressure

@@ -30,7 +30,8 @@ void invertDefinite(double* matrix, int n, int leading) {
 }  // namespace
 
 WingCapacitance::WingCapacitance(const Grid& grid, const Slab& slab, const AxisModes& x,
-                                 const AxisModes& y, const WingResponse& response) {
+                                 const AxisModes& y, const WingResponse& response,
+                                 const Team& team) {
   findNormalFaces(grid);
   if (normal_.empty()) return;
   if (!grid.open && static_cast<std::size_t>(wing_faces_) == grid.wing.size()) {
@@ -47,7 +48,7 @@ WingCapacitance::WingCapacitance(const Grid& grid, const Slab& slab, const AxisM
   assembleNormal(response.complement, 1.0 / grid.z.gap[grid.k_wing]);
   assembleInPlane(response);
   invert();
-  inverse_ = SharedSymmetric(std::move(system_), slab, grid.k_wing);
+  inverse_ = SharedSymmetric(std::move(system_), slab, grid.k_wing, team);
 }
 
 void WingCapacitance::add(double conductance, double mobility) {

@@ -23,7 +23,7 @@ class WingCapacitance {
   /// separate domains), std::runtime_error when S cannot be factored. Made by every process whose
   /// slab touches the plane.
   WingCapacitance(const Grid& grid, const Slab& slab, const AxisModes& x, const AxisModes& y,
-                  const WingResponse& response);
+                  const WingResponse& response, const Team& team);
   bool empty() const { return root_.size() == 0; }
   int wingFaces() const { return wing_faces_; }
   /// Pressures below and above the wing's plane to sources there, all per mode (nx x ny), in place.

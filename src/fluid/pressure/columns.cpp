@@ -34,8 +34,10 @@ Eigen::ArrayXd allValues(const AxisModes& modes) {
 }  // namespace
 
 PressureColumns::PressureColumns(const Grid& grid, const Slab& slab, const AxisModes& x,
-                                 const AxisModes& y, std::vector<SpectrumBlock> blocks)
+                                 const AxisModes& y, std::vector<SpectrumBlock> blocks,
+                                 const Team& team)
     : slab_(slab),
+      team_(team),
       nx_(x.n()),
       ny_(y.n()),
       nz_(grid.z.n()),
@@ -51,6 +53,7 @@ PressureColumns::PressureColumns(const Grid& grid, const Slab& slab, const AxisM
   const Eigen::ArrayXd values_x = allValues(x), values_y = allValues(y);
   for (const SpectrumBlock& q : blocks_) {
     for (int b = 0; b < q.my; ++b) {
+      rows_.push_back({static_cast<int>(&q - blocks_.data()), b});
       factor(q, b, values_x.segment(q.first_x, q.mx) + values_y[q.first_y + b]);
     }
   }
@@ -103,11 +106,9 @@ void PressureColumns::removeMean(double* spectrum) const {
 }
 
 void PressureColumns::takePlane(const double* spectrum, int k, double* plane) const {
-  for (const SpectrumBlock& q : blocks_) {
-    for (int b = 0; b < q.my; ++b) {
-      std::copy_n(spectrum + row(q, b, k), q.mx, plane + planeIndex(q, b));
-    }
-  }
+  eachRow([&](const SpectrumBlock& q, int b) {
+    std::copy_n(spectrum + row(q, b, k), q.mx, plane + planeIndex(q, b));
+  });
 }
 
 /// Half 0: the planes below the wing, upwards; half 1: those above, downwards. What a process
@@ -125,24 +126,22 @@ void PressureColumns::eliminateHalf(double* spectrum, int half) const {
     half == 0 ? slab_.receiveFromBelow(passing_.data(), plane)
               : slab_.receiveFromAbove(passing_.data(), plane);
   }
-  for (const SpectrumBlock& q : blocks_) {
-    for (int b = 0; b < q.my; ++b) {
-      double* r = spectrum + row(q, b, first);
-      const double* reciprocal = reciprocal_.data() + row(q, b, first);
-      double* passing = passing_.data() + planeIndex(q, b);
-      if (continues) {
-        for (int a = 0; a < q.mx; ++a) r[a] += passing[a];
-      }
-      for (int k = first; k != last;
-           k += towards, r += towards * q.mx, reciprocal += towards * q.mx) {
-        eliminateRow(r, reciprocal, link_[half == 0 ? k + 1 : k], r + towards * q.mx, q.mx);
-      }
-      if (passes_on) {
-        std::fill_n(passing, q.mx, 0.0);
-        eliminateRow(r, reciprocal, link_[half == 0 ? last + 1 : last], passing, q.mx);
-      }
+  eachRow([&](const SpectrumBlock& q, int b) {
+    double* r = spectrum + row(q, b, first);
+    const double* reciprocal = reciprocal_.data() + row(q, b, first);
+    double* passing = passing_.data() + planeIndex(q, b);
+    if (continues) {
+      for (int a = 0; a < q.mx; ++a) r[a] += passing[a];
     }
-  }
+    for (int k = first; k != last;
+         k += towards, r += towards * q.mx, reciprocal += towards * q.mx) {
+      eliminateRow(r, reciprocal, link_[half == 0 ? k + 1 : k], r + towards * q.mx, q.mx);
+    }
+    if (passes_on) {
+      std::fill_n(passing, q.mx, 0.0);
+      eliminateRow(r, reciprocal, link_[half == 0 ? last + 1 : last], passing, q.mx);
+    }
+  });
   if (passes_on) {
     half == 0 ? slab_.sendUp(passing_.data(), plane) : slab_.sendDown(passing_.data(), plane);
   }
@@ -173,21 +172,19 @@ void PressureColumns::addSources(const double* down, const double* up) const {
 }
 
 void PressureColumns::solveAtWing(double* spectrum) const {
-  for (const SpectrumBlock& q : blocks_) {
-    for (int b = 0; b < q.my; ++b) {
-      const std::ptrdiff_t at = planeIndex(q, b);
-      if (slab_.owns(k_wing_ - 1)) {
-        double* p = spectrum + row(q, b, k_wing_ - 1);
-        for (int a = 0; a < q.mx; ++a)
-          p[a] = below_[at + a] * r_d_[at + a] + cross_[at + a] * r_u_[at + a];
-      }
-      if (slab_.owns(k_wing_)) {
-        double* p = spectrum + row(q, b, k_wing_);
-        for (int a = 0; a < q.mx; ++a)
-          p[a] = cross_[at + a] * r_d_[at + a] + above_[at + a] * r_u_[at + a];
-      }
+  eachRow([&](const SpectrumBlock& q, int b) {
+    const std::ptrdiff_t at = planeIndex(q, b);
+    if (slab_.owns(k_wing_ - 1)) {
+      double* p = spectrum + row(q, b, k_wing_ - 1);
+      for (int a = 0; a < q.mx; ++a)
+        p[a] = below_[at + a] * r_d_[at + a] + cross_[at + a] * r_u_[at + a];
     }
-  }
+    if (slab_.owns(k_wing_)) {
+      double* p = spectrum + row(q, b, k_wing_);
+      for (int a = 0; a < q.mx; ++a)
+        p[a] = cross_[at + a] * r_d_[at + a] + above_[at + a] * r_u_[at + a];
+    }
+  });
 }
 
 void PressureColumns::substituteHalf(double* spectrum, int half) const {
@@ -201,21 +198,19 @@ void PressureColumns::substituteHalf(double* spectrum, int half) const {
     half == 0 ? slab_.receiveFromAbove(passing_.data(), plane)
               : slab_.receiveFromBelow(passing_.data(), plane);
   }
-  for (const SpectrumBlock& q : blocks_) {
-    for (int b = 0; b < q.my; ++b) {
-      double* p = spectrum + row(q, b, nearest);
-      const double* reciprocal = reciprocal_.data() + row(q, b, nearest);
-      auto link = [&](int k) { return link_[half == 0 ? k + 1 : k]; };
-      if (!at_wing) {
-        substituteRow(p, reciprocal, link(nearest), passing_.data() + planeIndex(q, b), q.mx);
-      }
-      for (int k = nearest; k != last; k += outwards) {
-        p += outwards * q.mx;
-        reciprocal += outwards * q.mx;
-        substituteRow(p, reciprocal, link(k + outwards), p - outwards * q.mx, q.mx);
-      }
+  eachRow([&](const SpectrumBlock& q, int b) {
+    double* p = spectrum + row(q, b, nearest);
+    const double* reciprocal = reciprocal_.data() + row(q, b, nearest);
+    auto link = [&](int k) { return link_[half == 0 ? k + 1 : k]; };
+    if (!at_wing) {
+      substituteRow(p, reciprocal, link(nearest), passing_.data() + planeIndex(q, b), q.mx);
     }
-  }
+    for (int k = nearest; k != last; k += outwards) {
+      p += outwards * q.mx;
+      reciprocal += outwards * q.mx;
+      substituteRow(p, reciprocal, link(k + outwards), p - outwards * q.mx, q.mx);
+    }
+  });
   const bool passes_on = half == 0 ? !slab_.atBottom() : !slab_.atTop();
   if (!passes_on) return;
   takePlane(spectrum, last, passing_.data());

@@ -27,7 +27,7 @@ struct WingResponse {
 class PressureColumns {
  public:
   PressureColumns(const Grid& grid, const Slab& slab, const AxisModes& x, const AxisModes& y,
-                  std::vector<SpectrumBlock> blocks);
+                  std::vector<SpectrumBlock> blocks, const Team& team);
   WingResponse wingResponse() const;
 
   /// The constant mode's r made to sum to zero (a multiple of width taken off). Closed outer faces
@@ -56,15 +56,27 @@ class PressureColumns {
   std::ptrdiff_t row(const SpectrumBlock& q, int b, int k) const {
     return q.offset + (static_cast<std::ptrdiff_t>(b) * slab_.planes() + k - slab_.k0()) * q.mx;
   }
+  /// Calls work(block, mode b of y) for all of them.
+  template <class Work>
+  void eachRow(Work work) const {
+    team_.each(0, static_cast<int>(rows_.size()),
+               [&](int r, int) { work(blocks_[rows_[r].block], rows_[r].b); });
+  }
   void takePlane(const double* spectrum, int k, double* plane) const;
   void eliminateHalf(double* spectrum, int half) const;
   void substituteHalf(double* spectrum, int half) const;
   void solveAtWing(double* spectrum) const;
   void factor(const SpectrumBlock& q, int b, const Eigen::ArrayXd& lambda);
 
+  struct Row {
+    int block, b;
+  };
+
   const Slab slab_;
+  const Team team_;
   int nx_, ny_, nz_, k_wing_;
   std::vector<SpectrumBlock> blocks_;
+  std::vector<Row> rows_;  ///< of the spectrum: all modes b of y of all blocks
   Eigen::ArrayXd width_, link_;  ///< cells; faces (1 / gap, 0 at a closed end)
   Eigen::ArrayXd reciprocal_;    ///< of the pivots, laid out as the spectrum
   /// Inverse of the 2 x 2 systems, and 1 - l g, as mode planes.

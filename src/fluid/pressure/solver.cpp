@@ -13,6 +13,7 @@
 namespace monarch_flight {
 
 using fluid::Slab;
+using fluid::Team;
 using namespace fluid::pressure;
 
 namespace {
@@ -30,16 +31,17 @@ int facesOf(const Grid& g) {
 }  // namespace
 
 struct PressureSolver::Impl {
-  Impl(const Grid& g, const Slab& s)
-      : grid(g),
+  Impl(const Grid& g, const Slab& s, const Team& team)
+      : blas(team.threads()),
+        grid(g),
         slab(s),
         x(g.x, g.open),
         y(g.y, g.open),
-        transform(x, y, slab.planes()),
-        columns(g, slab, x, y, transform.blocks()),
+        transform(x, y, slab.planes(), team),
+        columns(g, slab, x, y, transform.blocks(), team),
         faces(facesOf(g)),
         wing(columns.touchesWing()
-                 ? std::make_unique<WingCapacitance>(g, s, x, y, columns.wingResponse())
+                 ? std::make_unique<WingCapacitance>(g, s, x, y, columns.wingResponse(), team)
                  : nullptr),
         spectrum(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n() * slab.planes())),
         down(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())),
@@ -57,11 +59,11 @@ struct PressureSolver::Impl {
   double setup_seconds = 0.0;
 };
 
-PressureSolver::PressureSolver(const Grid& grid) : PressureSolver(grid, Slab(grid.z.n())) {}
+PressureSolver::PressureSolver(const Grid& grid) : PressureSolver(grid, Slab(grid.z.n()), Team()) {}
 
-PressureSolver::PressureSolver(const Grid& grid, const Slab& slab) {
+PressureSolver::PressureSolver(const Grid& grid, const Slab& slab, const Team& team) {
   const auto begin = std::chrono::steady_clock::now();
-  impl_ = std::make_unique<Impl>(grid, slab);
+  impl_ = std::make_unique<Impl>(grid, slab, team);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   impl_->setup_seconds = spent.count();
 }

@@ -8,6 +8,7 @@ namespace monarch_flight::fluid::pressure {
 namespace {
 
 constexpr std::ptrdiff_t kBatchDoubles = 40000;  // 0.3 MB a buffer: two of them fit the L2 cache
+constexpr int kFewestBatches = 8;  // for threads; the same for any number of them
 
 /// even[i] = row[i] + row[n-1-i], odd[i] = row[i] - row[n-1-i], i < m = n / 2.
 void foldRow(const double* row, int m, double* even, double* odd) {
@@ -55,12 +56,13 @@ void unfoldRowPair(const double* even_even, const double* odd_even, const double
 
 }  // namespace
 
-PlaneTransform::PlaneTransform(const AxisModes& x, const AxisModes& y, int nz)
-    : x_(x), y_(y), nz_(nz) {
+PlaneTransform::PlaneTransform(const AxisModes& x, const AxisModes& y, int nz, const Team& team)
+    : x_(x), y_(y), nz_(nz), team_(team) {
   const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(x.n()) * y.n();
-  batch_ = static_cast<int>(std::clamp<std::ptrdiff_t>(kBatchDoubles / plane, 1, nz));
-  folded_.setZero(plane * batch_);
-  halfway_.setZero(plane * batch_);
+  const int share = (nz + kFewestBatches - 1) / kFewestBatches;
+  batch_ = static_cast<int>(std::clamp<std::ptrdiff_t>(kBatchDoubles / plane, 1, share));
+  const Eigen::VectorXd empty = Eigen::VectorXd::Zero(plane * batch_);
+  scratch_.assign(team.threads(), Scratch{empty, empty});
   std::ptrdiff_t offset = 0;
   int first_x = 0;
   for (int cx = 0; cx < static_cast<int>(x.classes().size()); ++cx) {
@@ -76,17 +78,15 @@ PlaneTransform::PlaneTransform(const AxisModes& x, const AxisModes& y, int nz)
   }
 }
 
-double* PlaneTransform::folded(int class_x, int class_y, int planes) const {
+std::ptrdiff_t PlaneTransform::part(std::size_t class_x, std::size_t class_y, int planes) const {
   const std::ptrdiff_t mx = x_.classes()[0].m(), my = y_.classes()[0].m();
-  return folded_.data() + (class_x * y_.n() + class_y * my) * mx * planes;
+  return (static_cast<std::ptrdiff_t>(class_x) * y_.n() + static_cast<std::ptrdiff_t>(class_y) * my) *
+         mx * planes;
 }
 
-double* PlaneTransform::halfway(int class_x, int class_y, int planes) const {
-  return halfway_.data() + (folded(class_x, class_y, planes) - folded_.data());
-}
-
-void PlaneTransform::fold(const double* field, int k0, int planes) const {
+void PlaneTransform::fold(const double* field, int k0, int planes, Scratch& s) const {
   const int nx = x_.n(), ny = y_.n(), mx = x_.classes()[0].m(), my = y_.classes()[0].m();
+  auto folded = [&](int cx, int cy) { return s.folded.data() + part(cx, cy, planes); };
   const std::ptrdiff_t row_stride = static_cast<std::ptrdiff_t>(planes) * mx;
   for (int k = 0; k < planes; ++k) {
     const double* plane = field + static_cast<std::ptrdiff_t>(k0 + k) * nx * ny;
@@ -95,23 +95,24 @@ void PlaneTransform::fold(const double* field, int k0, int planes) const {
       const double* row = plane + static_cast<std::ptrdiff_t>(j) * nx;
       const double* mirror = plane + static_cast<std::ptrdiff_t>(ny - 1 - j) * nx;
       if (x_.split() && y_.split()) {
-        foldRowPair(row, mirror, mx, folded(0, 0, planes) + at, folded(1, 0, planes) + at,
-                    folded(0, 1, planes) + at, folded(1, 1, planes) + at);
+        foldRowPair(row, mirror, mx, folded(0, 0) + at, folded(1, 0) + at,
+                    folded(0, 1) + at, folded(1, 1) + at);
       } else if (x_.split()) {
-        foldRow(row, mx, folded(0, 0, planes) + at, folded(1, 0, planes) + at);
+        foldRow(row, mx, folded(0, 0) + at, folded(1, 0) + at);
       } else if (y_.split()) {
-        double *even = folded(0, 0, planes) + at, *odd = folded(0, 1, planes) + at;
+        double *even = folded(0, 0) + at, *odd = folded(0, 1) + at;
         for (int i = 0; i < nx; ++i) even[i] = row[i] + mirror[i];
         for (int i = 0; i < nx; ++i) odd[i] = row[i] - mirror[i];
       } else {
-        std::copy(row, row + nx, folded(0, 0, planes) + at);
+        std::copy(row, row + nx, folded(0, 0) + at);
       }
     }
   }
 }
 
-void PlaneTransform::unfold(double* field, int k0, int planes) const {
+void PlaneTransform::unfold(double* field, int k0, int planes, Scratch& s) const {
   const int nx = x_.n(), ny = y_.n(), mx = x_.classes()[0].m(), my = y_.classes()[0].m();
+  auto folded = [&](int cx, int cy) { return s.folded.data() + part(cx, cy, planes); };
   const std::ptrdiff_t row_stride = static_cast<std::ptrdiff_t>(planes) * mx;
   for (int k = 0; k < planes; ++k) {
     double* plane = field + static_cast<std::ptrdiff_t>(k0 + k) * nx * ny;
@@ -120,16 +121,16 @@ void PlaneTransform::unfold(double* field, int k0, int planes) const {
       double* row = plane + static_cast<std::ptrdiff_t>(j) * nx;
       double* mirror = plane + static_cast<std::ptrdiff_t>(ny - 1 - j) * nx;
       if (x_.split() && y_.split()) {
-        unfoldRowPair(folded(0, 0, planes) + at, folded(1, 0, planes) + at,
-                      folded(0, 1, planes) + at, folded(1, 1, planes) + at, mx, row, mirror);
+        unfoldRowPair(folded(0, 0) + at, folded(1, 0) + at,
+                      folded(0, 1) + at, folded(1, 1) + at, mx, row, mirror);
       } else if (x_.split()) {
-        unfoldRow(folded(0, 0, planes) + at, folded(1, 0, planes) + at, mx, row);
+        unfoldRow(folded(0, 0) + at, folded(1, 0) + at, mx, row);
       } else if (y_.split()) {
-        const double *even = folded(0, 0, planes) + at, *odd = folded(0, 1, planes) + at;
+        const double *even = folded(0, 0) + at, *odd = folded(0, 1) + at;
         for (int i = 0; i < nx; ++i) row[i] = even[i] + odd[i];
         for (int i = 0; i < nx; ++i) mirror[i] = even[i] - odd[i];
       } else {
-        std::copy_n(folded(0, 0, planes) + at, nx, row);
+        std::copy_n(folded(0, 0) + at, nx, row);
       }
     }
   }
@@ -137,40 +138,42 @@ void PlaneTransform::unfold(double* field, int k0, int planes) const {
 
 void PlaneTransform::forwardNegative(const double* field, double* spectrum) const {
   const int mx = x_.classes()[0].m();
-  for (int k0 = 0; k0 < nz_; k0 += batch_) {
-    const int planes = std::min(batch_, nz_ - k0);
-    fold(field, k0, planes);
+  team_.each(0, batches(), [&](int batch, int thread) {
+    const int k0 = batch * batch_, planes = std::min(batch_, nz_ - k0);
+    Scratch& s = scratch_[thread];
+    fold(field, k0, planes, s);
     for (std::size_t cx = 0; cx < x_.classes().size(); ++cx) {
       product(CblasTrans, CblasNoTrans, mx, planes * y_.n(), mx, 1.0,
-              x_.classes()[cx].vectors.data(), mx, folded(cx, 0, planes), mx,
-              halfway(cx, 0, planes), mx);
+              x_.classes()[cx].vectors.data(), mx, s.folded.data() + part(cx, 0, planes), mx,
+              s.halfway.data() + part(cx, 0, planes), mx);
     }
     for (const SpectrumBlock& q : blocks_) {
       product(CblasNoTrans, CblasNoTrans, mx * planes, q.my, q.my, -1.0,
-              halfway(q.class_x, q.class_y, planes), mx * planes,
+              s.halfway.data() + part(q.class_x, q.class_y, planes), mx * planes,
               y_.classes()[q.class_y].vectors.data(), q.my,
               spectrum + q.offset + static_cast<std::ptrdiff_t>(k0) * mx, mx * nz_);
     }
-  }
+  });
 }
 
 void PlaneTransform::inverse(const double* spectrum, double* field) const {
   const int mx = x_.classes()[0].m();
-  for (int k0 = 0; k0 < nz_; k0 += batch_) {
-    const int planes = std::min(batch_, nz_ - k0);
+  team_.each(0, batches(), [&](int batch, int thread) {
+    const int k0 = batch * batch_, planes = std::min(batch_, nz_ - k0);
+    Scratch& s = scratch_[thread];
     for (const SpectrumBlock& q : blocks_) {
       product(CblasNoTrans, CblasTrans, mx * planes, q.my, q.my, 1.0,
               spectrum + q.offset + static_cast<std::ptrdiff_t>(k0) * mx, mx * nz_,
-              y_.classes()[q.class_y].vectors.data(), q.my, halfway(q.class_x, q.class_y, planes),
-              mx * planes);
+              y_.classes()[q.class_y].vectors.data(), q.my,
+              s.halfway.data() + part(q.class_x, q.class_y, planes), mx * planes);
     }
     for (std::size_t cx = 0; cx < x_.classes().size(); ++cx) {
       product(CblasNoTrans, CblasNoTrans, mx, planes * y_.n(), mx, 1.0,
-              x_.classes()[cx].vectors.data(), mx, halfway(cx, 0, planes), mx,
-              folded(cx, 0, planes), mx);
+              x_.classes()[cx].vectors.data(), mx, s.halfway.data() + part(cx, 0, planes), mx,
+              s.folded.data() + part(cx, 0, planes), mx);
     }
-    unfold(field, k0, planes);
-  }
+    unfold(field, k0, planes, s);
+  });
 }
 
 }  // namespace monarch_flight::fluid::pressure

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Dense>
 
+#include "fluid/fields/team.h"
 #include "fluid/pressure/modes.h"
 
 namespace monarch_flight::fluid::pressure {
@@ -16,24 +17,29 @@ struct SpectrumBlock {
 
 /// Transforms fields of nz planes of nx * ny cells (x fastest) to the modes of x and y and back:
 /// forward -Ux^T b Uy, inverse Ux p Uy^T, a few planes at a time so that they stay in cache.
-/// Constant but for its scratch: one call at a time.
+/// The few planes are the work of one thread. Constant but for its scratch: one call at a time.
 class PlaneTransform {
  public:
-  PlaneTransform(const AxisModes& x, const AxisModes& y, int nz);
+  PlaneTransform(const AxisModes& x, const AxisModes& y, int nz, const Team& team);
   const std::vector<SpectrumBlock>& blocks() const { return blocks_; }
   void forwardNegative(const double* field, double* spectrum) const;
   void inverse(const double* spectrum, double* field) const;
 
  private:
-  void fold(const double* field, int k0, int planes) const;
-  void unfold(double* field, int k0, int planes) const;
-  double* folded(int class_x, int class_y, int planes) const;
-  double* halfway(int class_x, int class_y, int planes) const;
+  /// Planes of a batch, laid out [class_x][class_y][j][plane][i]: folded by parity; half transformed.
+  struct Scratch {
+    Eigen::VectorXd folded, halfway;
+  };
+  void fold(const double* field, int k0, int planes, Scratch& s) const;
+  void unfold(double* field, int k0, int planes, Scratch& s) const;
+  std::ptrdiff_t part(std::size_t class_x, std::size_t class_y, int planes) const;
+  int batches() const { return (nz_ + batch_ - 1) / batch_; }
 
   AxisModes x_, y_;
   int nz_, batch_;
+  Team team_;
   std::vector<SpectrumBlock> blocks_;
-  mutable Eigen::VectorXd folded_, halfway_;  // [class_x][class_y][j][plane][i]
+  mutable std::vector<Scratch> scratch_;  ///< one a thread
 };
 
 }  // namespace monarch_flight::fluid::pressure

@@ -208,9 +208,13 @@ Loads BladeElement::loadsOf(const WingMotion& motion) {
 
 }  // namespace
 
+}  // namespace monarch_flight::fluid::quasi_steady
+
+namespace monarch_flight {
+
 std::unique_ptr<FluidModel> makeQuasiSteady(const Planform& planform, const Air& air,
                                             BladeElementVariant variant) {
-  return std::make_unique<BladeElement>(planform, air, variant);
+  return std::make_unique<fluid::quasi_steady::BladeElement>(planform, air, variant);
 }
 
-}  // namespace monarch_flight::fluid::quasi_steady
+}  // namespace monarch_flight
