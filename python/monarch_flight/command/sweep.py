@@ -37,7 +37,7 @@ def values_from(words):
     if not re.fullmatch(r"[a-z_0-9/]+=[-+.0-9eE]+(,[-+.0-9eE]+)*", over):
         faults.append(f"over:={over}: must be key/below/insect=value,value,...; as wing/kappa=1e-4,1.5e-4")
     case = values.setdefault("case", "climb")
-    if not case_files.path_of(case).is_file():
+    if not os.path.isfile(case_files.path_of(case)):
         faults.append(f"case:={case}: neither a shipped case nor a file" + keys.nearest(case, case_files.shipped()))
     if faults:
         raise keys.Refused(*faults)
