@@ -2,15 +2,17 @@
 import contextlib
 import io
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 from monarch_flight import preparing, telling  # noqa: E402
-from monarch_flight.runs import ending, programs, watched  # noqa: E402
+from monarch_flight.runs import ending, programs, summary, watched  # noqa: E402
 
 
 class Ended(unittest.TestCase):
@@ -40,7 +42,9 @@ class Ended(unittest.TestCase):
             self.assertIn("died (SIGSEGV)", words)
 
     def test_programs_that_are_not_there(self):
-        code, words = self.said(lambda: watched.run(["nowhere-mpirun"], {}, watched.Stop()))
+        stop = watched.Stop()
+        self.addCleanup(stop.end)
+        code, words = self.said(lambda: watched.run(["nowhere-mpirun"], {}, stop))
         self.assertEqual(code, (1, []))
         self.assertIn("nowhere-mpirun cannot be started: No such file or directory", words)
         for act in (lambda: programs.called("/nowhere/trim", []), lambda: preparing.must(["/nowhere/install"])):
@@ -56,6 +60,26 @@ class Ended(unittest.TestCase):
                                   stderr=subprocess.STDOUT, text=True, timeout=30, check=False)
             self.assertIn(done.returncode, (1, 2), done.stdout)
             self.assertNotIn("Traceback", done.stdout)
+
+    def test_a_summary_of_something_else(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for text in ("{}", "[]", '{"status": 1, "sub_iterations": 2, "wall_s": 3}'):
+                pathlib.Path(folder, "summary.json").write_text(text, encoding="utf-8")
+                code, words = self.said(lambda: summary.show(folder))
+                self.assertEqual(code, 1)
+                self.assertIn("summary.json is not that of a run", words)
+
+    def test_ctrl_c_while_a_command_begins(self):
+        for words in (("keys",), ("sweep", "--help"), ("figures", "fig99")):
+            for delay in (0.05, 0.08, 0.12, 0.2, 0.3):
+                process = subprocess.Popen(["/usr/bin/python3", ROOT / "scripts/monarch", *words], text=True,
+                                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+                time.sleep(delay)
+                process.send_signal(signal.SIGINT)
+                output = process.communicate(timeout=30)[0]
+                if "monarch" in output:  # else python itself was beginning
+                    self.assertNotIn("Traceback", output)
 
 
 if __name__ == "__main__":
