@@ -1,13 +1,15 @@
 #!/usr/bin/python3
 """Ends when all flights of its launch are over, and with it roslaunch (flight.launch): no flight ends another one.
 
-Waits while a coordinator, or an rviz, of the same roslaunch lives; other nodes then have some seconds to end."""
+Waits while a coordinator, or an rviz, of the same roslaunch lives; other nodes then have some seconds to end.
+Then it takes the parameters of its flight off the master, which may live on."""
+import http.client
 import os
 import signal
-import sys
 import time
+import xmlrpc.client
 
-BEGIN, LEAVE, LOOK = 30.0, 10.0, 0.2  # s
+BEGIN, QUIET, LEAVE, LOOK = 30.0, 5.0, 10.0, 0.2  # s
 NODES = {"coordinator", "fluid", "flight", "wing", "rviz"}
 LEADERS = {"coordinator", "rviz"}
 
@@ -34,14 +36,69 @@ def wait_while(alive, limit=float("inf")):
         time.sleep(LOOK)
 
 
+def leader_begins():
+    """Whether a leader is seen; given up as soon as none of the nodes has been there for a while (refused at once)."""
+    begin = last = time.monotonic()
+    while time.monotonic() < min(begin + BEGIN, last + QUIET):
+        seen = siblings()
+        if LEADERS & seen:
+            return True
+        last = time.monotonic() if seen else last
+        time.sleep(LOOK)
+    return False
+
+
+class Impatient(xmlrpc.client.Transport):
+    """HTTP with a time limit."""
+
+    def make_connection(self, host):
+        connection = super().make_connection(host)
+        connection.timeout = 2.0
+        return connection
+
+
+def ask(uri, method, *arguments):
+    """The value that an XML-RPC server answers with, or None."""
+    try:
+        with xmlrpc.client.ServerProxy(uri, transport=Impatient()) as server:
+            code, _, value = getattr(server, method)("/flown", *arguments)
+        return value if code == 1 else None
+    except (OSError, http.client.HTTPException, xmlrpc.client.Error):
+        return None
+
+
+def tidy(may_live):
+    """Takes away what flight.launch has set; nothing where another flight has taken the place of this one. `may_live`:
+    whether its own coordinator may still be there."""
+    master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
+    beside = os.environ.get("ROS_NAMESPACE", "").strip("/")
+    beside = "/" + beside + "/" if beside else "/"
+    run, coordinator = beside + "monarch_flight", beside + "monarch_flight/coordinator"
+    at = ask(master, "lookupNode", coordinator)
+    if at and not may_live and ask(at, "getPid") is not None:
+        return
+    for name, value in (ask(master, "getParam", run) or {}).items():
+        if name == "exit_codes" or not isinstance(value, dict):  # the others are private ones of nodes
+            ask(master, "deleteParam", f"{run}/{name}")
+    ask(master, "deleteParam", beside + "robot_description")
+    publishers = (ask(master, "getSystemState") or [[]])[0]
+    if not any(topic == "/clock" and set(nodes) - {coordinator} for topic, nodes in publishers):
+        ask(master, "deleteParam", "/use_sim_time")  # nobody gives the time any more
+
+
+def ended(*_):
+    tidy(may_live=True)
+    os._exit(0)
+
+
 def main():
-    signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
-    leaders = []
-    wait_while(lambda: not leaders and not leaders.extend(LEADERS & siblings()), BEGIN)
+    signal.signal(signal.SIGINT, ended)
+    signal.signal(signal.SIGTERM, ended)
+    led = leader_begins()
     wait_while(lambda: LEADERS & siblings())
     # A leader that was never seen is on another machine, or was refused: the other nodes end with it.
-    wait_while(siblings, LEAVE if leaders else float("inf"))
+    wait_while(siblings, LEAVE if led else float("inf"))
+    tidy(may_live=False)
 
 
 if __name__ == "__main__":

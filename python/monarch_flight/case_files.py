@@ -1,6 +1,7 @@
 """Case files (docs/case_files.md) in Python: read to be changed and written elsewhere."""
 import hashlib
 import json
+import os
 import pathlib
 import re
 
@@ -20,7 +21,7 @@ CaseLoader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"[-+]?[0
 def path_of(case):
     """The file of a case given by name (config/cases) or by path."""
     shipped = places.config() / "cases" / f"{case}.yaml"
-    return shipped if shipped.is_file() else pathlib.Path(case)
+    return shipped if os.path.isfile(shipped) else pathlib.Path(case)
 
 
 def shipped():

@@ -35,8 +35,17 @@ def launch_doc(key):
 
 def launch_parameters(table):
     """The <param> lines, below /monarch_flight."""
-    return "".join(f'    <param name="{name}" value="$(arg {name})" type="str"/>\n'
-                   for name in table.of("launch").of("server"))
+    return "".join(parameter(key) for key in table.of("launch").of("server").values())
+
+
+def parameter(key):
+    """One of them, and instead of it another one where the argument is not given."""
+    given = f'    <param name="{key.name}" value="$(arg {key.name})" type="str"'
+    if not key.unset:
+        return given + "/>\n"
+    missing = f"\"$(eval arg('{key.name}') in ('', 'auto'))\"/>\n"
+    return (f"{given} unless={missing}"
+            f'    <param name="{key.name}" value={attribute(key.unset)} type="str"\n           if={missing}')
 
 
 def value(key):

@@ -33,6 +33,7 @@ class Key:
     of: tuple = ()
     override: str = ""
     launch: str = ""
+    unset: str = ""
     see: str = ""
 
     @property

@@ -3,7 +3,7 @@ import os
 import subprocess
 import sys
 
-from monarch_flight import places
+from monarch_flight import places, telling
 
 
 def installed(*sections):
@@ -26,9 +26,13 @@ def ready(*sections):
 
 def must(command, **options):
     """Runs a command that tells itself what is wrong; ends with its exit code then."""
-    code = subprocess.run([str(word) for word in command], check=False, **options).returncode
+    words = [str(word) for word in command]
+    try:
+        code = subprocess.run(words, check=False, **options).returncode
+    except OSError as error:
+        sys.exit(f"monarch: {words[0]} cannot be started: {error.strerror}")
     if code:
-        sys.exit(130 if code == -2 else max(code, 1))
+        sys.exit(telling.passed_on(code, words[0], "monarch"))
 
 
 def source_only(command):

@@ -26,57 +26,19 @@ Guidance may have commit(request), and `lost`, true once it has given up.
 """
 import hashlib
 import hmac
-import io
 import os
 import signal
 import threading
 import time
 
-# Reached from this machine only, unless the person has given the node an address.
-if "ROS_IP" not in os.environ:
-    os.environ.setdefault("ROS_HOSTNAME", "localhost")
-
-# Where the launch files put a run that is alone.
-os.environ.setdefault("ROS_NAMESPACE", "/monarch_flight")
-
-import rospy  # noqa: E402  (reads address and namespace when it is imported)
+import rospy
 import yaml
 from monarch_flight.mirror import FluidOfWing
 from monarch_flight.msg import (CouplingKey, Hello, ParticipantReply, ParticipantRequest,
                                 WingbeatCommand)
+from monarch_flight.solver_start import FAILED, Coordinator, NoFlight, begin, one_line
+from monarch_flight.solver_token import SEAL, seal_of, serialized, token_of_run
 from std_msgs.msg import String
-
-SEAL = 32  # bytes at the end of every message
-
-
-def token_of_run(limit=30):
-    """What the file of the parameter token_file holds; the coordinator makes it in the beginning."""
-    path = rospy.get_param("token_file", "")
-    end = time.monotonic() + limit
-    while path:
-        try:
-            with open(path, "rb") as f:
-                facts = os.fstat(f.fileno())
-                if facts.st_uid != os.geteuid() or facts.st_mode & 0o077:
-                    raise RuntimeError("token_file = %s: must be yours alone (chmod 600)" % path)
-                return f.read().rstrip()
-        except FileNotFoundError:
-            if time.monotonic() > end or rospy.is_shutdown():
-                raise RuntimeError("token_file = %s: there is no such file after %g s: is the coordinator "
-                                   "running?" % (path, limit)) from None
-            time.sleep(0.02)
-    return b""
-
-
-def seal_of(token, topic, data):
-    """Of a serialized message, whose own seal is left out."""
-    return hmac.new(token, topic.encode() + b"\0" + data[:-SEAL], hashlib.sha256).digest()
-
-
-def serialized(message):
-    buffer = io.BytesIO()
-    message.serialize(buffer)
-    return buffer.getvalue()
 
 
 def order(key):
@@ -134,14 +96,16 @@ class SolverNode:
         self.greeting = self.cache = self.kept = self.case = None
         self.case_known, self.over = threading.Event(), threading.Event()
         self.refused = 0
-        rospy.init_node(role, disable_signals=True)
+        with one_line(role, KeyboardInterrupt):
+            begin(role)
         if role == "fluid":  # which wing's, the node's name says
             left = rospy.get_name().endswith("/fluid_left")
             self.role = "fluid_left" if left else role
             self.solver = FluidOfWing(solver, left)
         self.place = rospy.resolve_name(self.role) + "/"
-        self.token = token_of_run()
-        self.checkpoints = None
+        self.checkpoints, self.token = None, b""
+        with one_line(self.role, KeyboardInterrupt):
+            self.token = token_of_run()
         self.replies = rospy.Publisher(self.place + "reply", ParticipantReply, queue_size=8,
                                        tcp_nodelay=True)
         self.hello = rospy.Publisher(self.place + "hello", Hello, latch=True, queue_size=8)
@@ -257,22 +221,27 @@ class SolverNode:
 
     def serve(self):
         """Returns an exit code when the run is over: 1 when the coordinator was lost, 130 when
-        stopped by hand."""
+        stopped by hand. Ends the program with 2 when the coordinator has refused the run."""
         try:
-            return self.wait_for_the_end()
+            with one_line(self.role):
+                return self.wait_for_the_end()
         except KeyboardInterrupt:  # the coordinator, interrupted too, makes its last checkpoint
             self.let_coordinator_leave(10)
             return 130
         finally:  # roslaunch interrupts what is still there; the interpreter is about to leave
             signal.signal(signal.SIGINT, signal.SIG_IGN)
 
-    def wait_for_the_end(self, limit=600.0):
-        begin = time.monotonic()
+    def wait_for_the_end(self, limit=60.0):
+        coordinator, end = Coordinator(), time.monotonic() + limit
         while not self.over.wait(0.2) and not rospy.is_shutdown():
-            if self.replies.get_num_connections() == 0 and (
-                    self.cache is not None or time.monotonic() - begin > limit):
-                rospy.logerr("the coordinator is lost")
-                return 1
+            if self.replies.get_num_connections() > 0:
+                continue
+            if self.cache is not None:
+                raise NoFlight("the coordinator is lost", FAILED)
+            coordinator.refuse()
+            if time.monotonic() > end:
+                raise NoFlight("no coordinator appeared within %g s: is it running, in the same namespace of this "
+                               "master, with the same token?" % limit, FAILED)
         self.let_coordinator_leave(60)
         return 0
 

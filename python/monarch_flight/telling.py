@@ -1,6 +1,9 @@
 """Words to the person, where there still is one."""
 import os
+import signal
 import sys
+
+FAILED, STOPPED = 1, 130  # exit codes
 
 
 def say(text, who="fly"):
@@ -9,3 +12,27 @@ def say(text, who="fly"):
         print(f"{who}: {text}", file=sys.stderr, flush=True)
     except OSError:
         sys.stdout = sys.stderr = open(os.devnull, "w", encoding="utf-8")
+
+
+def signal_of(code):
+    """Name of the signal that ended a program, by its exit code as subprocess or a shell (128 + number) has it; empty
+    where it ended by itself."""
+    if 0 <= code <= 128:
+        return ""
+    number = -code if code < 0 else code - 128
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+def passed_on(code, what, who):
+    """Exit code of a command, from that of the program which does its work: where a signal ended that one, this is said,
+    and the command has failed."""
+    name = signal_of(code)
+    if not name:
+        return code
+    if name == "SIGINT":
+        return STOPPED
+    say(f"{what} died ({name})", who)
+    return FAILED

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "monarch_flight/ros_io/conversions.h"
+#include "monarch_flight/ros_io/early_end.h"
 
 namespace monarch_flight {
 namespace {
@@ -70,7 +71,9 @@ void RosParticipant::connect() {
   const ros::SteadyTime deadline =
       ros::SteadyTime::now() + ros::WallDuration(run_.limits.connect_s);
   Renewal renewal;
+  EarlyEnd end(ros::names::parentNamespace(node_.getNamespace()), roleName(role()), name());
   while (!ready()) {
+    end.refuse();
     if (renewal.due()) {
       if (!answer_) seekHello();
       if (replies_.getNumPublishers() == 0) seekReplies();

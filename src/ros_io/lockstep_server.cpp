@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "monarch_flight/ros_io/conversions.h"
+#include "monarch_flight/ros_io/early_end.h"
 
 namespace monarch_flight {
 namespace {
@@ -98,7 +99,10 @@ void LockstepServer::letCoordinatorLeave() {
 void LockstepServer::waitForCoordinator() {
   const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(limits_.connect_s);
   renewal_ = Renewal();
+  EarlyEnd coordinator(ros::names::parentNamespace(node_.getNamespace()), "coordinator",
+                       "the coordinator");
   while (!coordinatorListens()) {
+    coordinator.refuse();
     queue_.callAvailable(kSlice);
     seekCoordinator();
     if (!refusal_.empty()) refuse();

@@ -11,6 +11,7 @@
 #include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/ros_io/coordinator_node.h"
+#include "monarch_flight/ros_io/early_end.h"
 #include "monarch_flight/ros_io/flight_run.h"
 #include "monarch_flight/ros_io/loopback.h"
 #include "monarch_flight/ros_io/master.h"
@@ -33,12 +34,17 @@ StopFlag stop_requested{false};
 
 void requestStop(int) { stop_requested = true; }
 
+// By whoever has started this: nohup, a shell that puts it into its background.
+bool ignored(int number) {
+  struct sigaction now {};
+  return sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
 // Runs `body`; what it throws becomes a message and an exit code.
 int guarded(const std::string& name, const std::function<int()>& body) {
   usePluginlib();
-  std::signal(SIGINT, requestStop);
-  std::signal(SIGTERM, requestStop);
-  std::signal(SIGHUP, requestStop);  // the terminal was closed
+  for (int stop : {SIGINT, SIGTERM, SIGHUP})  // the last one: the terminal was closed
+    if (!ignored(stop)) std::signal(stop, requestStop);
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is met like a full disk: with a message
   const auto tell = [&name](const char* what) { std::cerr << name << ": " << what << std::endl; };
   try {
@@ -75,6 +81,7 @@ int nodeMain(const std::string& name, int argc, char** argv, const std::function
     try {
       return body();
     } catch (const std::exception& e) {
+      tellEarlyEnd(dynamic_cast<const InputError*>(&e) != nullptr ? kExitInput : kExitFailed);
       tellRosout(name + ": " + e.what());
       throw;
     }
@@ -87,6 +94,14 @@ int serveFlow(const Processes& processes) {
   for (int stop : {SIGINT, SIGTERM, SIGHUP}) std::signal(stop, SIG_IGN);
   processes.serveFlow();
   return kExitComplete;
+}
+
+// key:=auto and key:= are what launch files have for an argument that is not given.
+bool given(const std::string& argument) {
+  const std::size_t mark = argument.find(":=");
+  if (mark == std::string::npos) return true;
+  const std::string value = argument.substr(mark + 2);
+  return !value.empty() && value != "auto";
 }
 
 // Folder of the launcher's own files, as ROS has it.
@@ -141,6 +156,7 @@ int inProcessMain(int argc, char** argv) {
     const RunParameters parameters = runParameters(argc, argv);
     if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
+    requirePlugins(c);
     if (parameters.plan) {
       const std::string plan = plannedRun(parameters, c, false);
       std::cout << "air: " << fluidName(c) << "; wingbeat led by: " << guidanceName(c.guidance)
@@ -155,7 +171,6 @@ int inProcessMain(int argc, char** argv) {
                        ": a run in one process has no nodes and no topics that could lead it; choose "
                        "another type, or fly with nodes (in_process:=false)");
     requireProcesses(parameters, c);
-    requirePlugins(c);
     if (parameters.ranks > 1 && !c.mirrored)
       throw InputError(
           "ranks = " + std::to_string(parameters.ranks) +
@@ -178,7 +193,7 @@ int insectModelMain(int argc, char** argv) {
       const std::string argument = argv[i];
       if (argument.rfind("mesh_uri:=", 0) == 0) {
         uri = argument.substr(10);
-      } else {
+      } else if (given(argument)) {
         others.push_back(argv[i]);
       }
     }

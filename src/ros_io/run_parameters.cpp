@@ -88,15 +88,17 @@ void take(const std::string& name, const std::string& value, const std::string& 
 
 RunParameters checked(const Values& values, const std::string& where, Faults faults) {
   RunParameters out;
+  const auto given = [&where](const std::string& value) {
+    return !value.empty() && (value != kNotGiven || where.empty());
+  };
   for (const auto& [key, value] : values) {
-    const bool given = !value.empty() && (value != kNotGiven || where.empty());
-    if (given) take(key, value, where, out, faults);
+    if (given(value)) take(key, value, where, out, faults);
   }
   if (!out.resume.empty() && !out.out.empty()) {
     faults.push_back(where + "out = " + out.out + ": a resumed run goes on in its own folder (" +
                      where + "resume = " + out.resume + "); leave one of them out");
   }
-  if (!out.resume.empty() && (values.count("case") == 0 || values.at("case").empty()))
+  if (!out.resume.empty() && (values.count("case") == 0 || !given(values.at("case"))))
     out.name = out.resume + "/case.yaml";
   if (!faults.empty()) throw InputError(faults);
   return out;

@@ -102,7 +102,19 @@ TEST_F(Checkpointed, AnotherNumberOfProcessesIsRefusedBeforeAnythingIsTouched) {
   EXPECT_EQ(table, read("cut", "flight.csv.active"));
   EXPECT_TRUE(fs::exists(part("cut", "20", "manifest.json")));
   const Checkpoints two(climb(), out("cut"), true, 2);
-  EXPECT_EQ(two.command(), "scripts/fly resume:=" + out("cut") + " ranks:=2");
+  EXPECT_EQ(two.command(), "monarch fly resume:=" + out("cut") + " ranks:=2");
+  setenv("MONARCH_GO_ON", "scripts/fly resume:=here fluid_node:=mine", 1);
+  EXPECT_EQ(two.command(), "scripts/fly resume:=here fluid_node:=mine");
+  unsetenv("MONARCH_GO_ON");
+}
+
+TEST_F(Checkpointed, TheCommandToGoOnIsQuotedForTheShell) {
+  flyAndKill(climb(), "it's cut", 27);
+  const Checkpoints again(climb(), out("it's cut"), true, 1);
+  const std::string path = out("it's cut");
+  const std::size_t quote = path.find('\'');
+  EXPECT_EQ(again.command(), "monarch fly resume:='" + path.substr(0, quote) + "'\\''" +
+                                 path.substr(quote + 1) + "'");
 }
 
 TEST_F(Checkpointed, ATableThatHasChangedIsNoticed) {

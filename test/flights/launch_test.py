@@ -2,9 +2,11 @@
 """Launch files of other people that include ours: arguments, namespaces, strangers beside the nodes of a flight."""
 import os
 import subprocess
+import time
 import unittest
 
 import flying
+from monarch_flight.runs import master
 
 ARGUMENTS = '<arg name="fluid" value="quasi_steady"/><arg name="flaps" value="0.1"/>'
 FLIGHT = "$(find monarch_flight)/launch/flight.launch"
@@ -15,15 +17,25 @@ def include(file, out, more=""):
 
 
 class Launch(flying.FlightTest):
+    def core(self):
+        """A master that outlives the launches."""
+        environment = self.environment(ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost",
+                                       PATH="/usr/bin:" + os.environ["PATH"])
+        core = subprocess.Popen(["roscore", "-p", self.master.rsplit(":", 1)[1]], stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL, env=environment)
+        self.addCleanup(self.end, core)
+        self.wait_for(lambda: master.answers(self.master), 30, "roscore")
+
     def launched(self, content, **environment):
-        """What roslaunch says of a file, on a master of its own."""
+        """What roslaunch says of a file; without a core it starts a master of its own."""
         path = os.path.join(self.folder, "others.launch")
         with open(path, "w", encoding="utf-8") as file:
             file.write(f"<launch>{content}</launch>")
-        line = 'source "$0/devel/setup.bash" && exec roslaunch -p "$1" "$2"'
-        command = ["bash", "-c", line, flying.BUILD, self.master.rsplit(":", 1)[1], path]
+        line = 'source "$0/devel/setup.bash" && export ROS_MASTER_URI=$1 && exec roslaunch "$2"'
+        command = ["bash", "-c", line, flying.BUILD, self.master, path]
         done = subprocess.run(command, env=self.environment(PATH="/usr/bin:" + os.environ["PATH"], **environment),
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120, check=False)
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120, check=False,
+                              cwd=self.folder)
         return done.stdout
 
     def check(self, name, output, case):
@@ -49,6 +61,41 @@ class Launch(flying.FlightTest):
         output = self.launched(include(FLIGHT, self.out("one")), ROS_NAMESPACE="bf1")
         self.assertIn("bf1/monarch_flight/coordinator", output)
         self.check("one", output, "climb_controlled")
+
+    def test_a_refused_run_ends_at_once(self):
+        """The coordinator alone knows that there is no such plugin; a solver in Python waits for it."""
+        begin = time.monotonic()
+        output = self.launched(f'<include file="{FLIGHT}"><arg name="guidance" value="nobody/Nothing"/>{ARGUMENTS}'
+                               f'<arg name="fluid_node" value="drag_fluid.py"/><arg name="out" value="{self.out()}"/></include>')
+        self.assertLess(time.monotonic() - begin, 25)
+        self.assertNotIn("Traceback", output)
+        for node in ("fluid", "flight", "wing"):
+            self.assertIn(f"{node}: the coordinator has refused the run; the reason is its own message", output)
+            self.assertRegex(output, rf"monarch_flight/{node}-\d+\] process has died \[pid \d+, exit code 2")
+
+    def test_flights_one_after_the_other_on_a_master_that_stays(self):
+        """What they set is gone behind them, what others have set is not."""
+        self.core()
+        for name, value in (("/others", 1), ("/monarch_flight/their_node/rate", 5)):
+            master.ask(self.master, "setParam", name, value)
+        self.wait_for(lambda: "/rosversion" in master.ask(self.master, "getParamNames"), 30, "what roscore sets")
+        before = set(master.ask(self.master, "getParamNames"))
+        for name in ("one", "two"):
+            case = '<arg name="case" value="%s"/>' % {"one": "climb", "two": "climb_controlled"}[name]
+            output = self.launched(include(FLIGHT, self.out(name), case), ROS_HOSTNAME="localhost")
+            self.check(name, output, {"one": "climb", "two": "climb_controlled"}[name])
+            left = set(master.ask(self.master, "getParamNames")) - before
+            self.assertEqual({one for one in left if not one.startswith("/roslaunch/uris")}, set())
+        self.assertEqual(master.ask(self.master, "getParam", "/monarch_flight/their_node/rate"), 5)
+
+    def test_a_token_file_beside_the_launch_file(self):
+        """Relative, it starts where roslaunch was called; auto is as if it was not given."""
+        for given in ("secret/token", "auto"):
+            output = self.launched(include(FLIGHT, self.out(given[:4]), f'<arg name="token_file" value="{given}"/>'))
+            self.check(given[:4], output, "climb_controlled")
+            self.assertNotIn("every node of this master can take part", output)
+        self.assertEqual(os.stat(os.path.join(self.folder, "secret")).st_mode & 0o777, 0o700)
+        self.assertEqual(os.listdir(os.path.join(self.folder, "secret")), [])
 
 
 if __name__ == "__main__":

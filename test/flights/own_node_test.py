@@ -2,6 +2,7 @@
 """A fluid node of one's own, in Python (examples/drag_fluid.py), flies with the other nodes."""
 import math
 import os
+import subprocess
 import unittest
 
 import flying
@@ -48,6 +49,12 @@ class OwnNode(flying.FlightTest):
             self.assertEqual((row[at("roll")], row[at("y")]), (0.0, 0.0))
             self.assertAlmostEqual(row[at("fz")], alone[at("fz")], delta=1e-7)
         self.assertGreater(max(abs(row[at("fz_L")]) for row in two), 1e-4)
+
+    def test_to_import_the_solver_changes_nothing(self):
+        """The environment belongs to the program, which may be no node at all."""
+        code = "import os; before = dict(os.environ); import monarch_flight.solver_node; assert before == dict(os.environ)"
+        line = 'source "$0/devel/setup.bash" && exec /usr/bin/python3 -c "$1"'
+        subprocess.run(["bash", "-c", line, flying.BUILD, code], env=self.environment(), check=True, timeout=60)
 
     def test_what_it_cannot_fly_is_said(self):
         code, output = self.fly("case:=hinge", *KEYS[1:], "out:=" + self.out())

@@ -93,6 +93,26 @@ class Requests(unittest.TestCase):
         for words in ("holds something already", "did you mean 'climb_controlled'?", "flaps:=0: must be a number > 0"):
             self.assertIn(words, text)
 
+    def test_names_that_are_too_long(self):
+        long = "a" * 300
+        self.assertIn("neither a shipped case", self.faults(f"case:={long}"))
+        self.assertIn(f"out:={long}: File name too long; name another folder", self.faults(f"out:={long}"))
+        self.assertIn("not the folder of a run", self.faults(f"resume:={long}"))
+        self.assertIn("not the folder of a recorded flight", self.faults(f"replay:={long}"))
+
+    def test_a_case_that_yaml_cannot_take(self):
+        case = self.folder / "odd.yaml"
+        for text in ("a: 2020-13-45\n", "[" * 5000, "? [a]\n: b\n"):
+            case.write_text(text, encoding="utf-8")
+            self.assertEqual(request([f"case:={case}"], DARK).leader, "motion")
+
+    def test_paths_that_a_launch_file_cannot_carry(self):
+        for odd in ('a"b.yaml', "a\\b.yaml"):
+            case = self.folder / odd
+            case.write_text("name: x\n", encoding="utf-8")
+            self.assertIn("a run with nodes cannot use a path with", self.faults(f"case:={case}"))
+            self.assertEqual(request([f"case:={case}", "in_process:=true"], DARK).values["case"], str(case))
+
 
 if __name__ == "__main__":
     unittest.main()

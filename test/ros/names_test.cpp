@@ -1,6 +1,5 @@
-// Several insects on one master: names of topics and frames, the file of a run's token, the clock.
+// Several insects on one master: names of topics and frames, the clock.
 #include <gtest/gtest.h>
-#include <monarch_flight/Hello.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <set>
@@ -8,7 +7,6 @@
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/ros_io/flight_messages.h"
 #include "monarch_flight/ros_io/run_parameters.h"
-#include "monarch_flight/ros_io/token_file.h"
 #include "ros/nodes_fixture.h"
 
 namespace monarch_flight {
@@ -80,68 +78,6 @@ TEST(RunNames, StandInEveryMessage) {
                                           "a/left_wing_deviation",
                                           "a/left_wing"};
   EXPECT_EQ(expected, frames);
-}
-
-/// The parameter token_file in a namespace of its own.
-class TokenFiles : public testing::Test {
- protected:
-  TokenFiles() { ros::param::set(names_.topic(kTokenFileKey), path_); }
-  ~TokenFiles() override { ros::param::del("/tokens"); }
-  void write(const std::string& text, mode_t mode = 0600) const {
-    std::ofstream(path_) << text;
-    chmod(path_.c_str(), mode);
-  }
-  std::string refusal() const {
-    try {
-      TokenFile file(names_);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
-  }
-  const RunNames names_{"/tokens/monarch_flight"};
-  TemporaryFolder folder_;
-  const std::string path_ = folder_ / "new/token";
-  const StopFlag go_{false};
-};
-
-TEST_F(TokenFiles, AreNewForEveryRunAndGoWithIt) {
-  std::string first;
-  for (int run = 0; run < 2; ++run) {
-    TokenFile file(names_);
-    struct stat facts {};
-    ASSERT_EQ(0, stat(path_.c_str(), &facts));
-    EXPECT_EQ(0600u, facts.st_mode & 0777u);
-    const std::string text = fileText(path_);
-    EXPECT_EQ(65u, text.size());
-    EXPECT_NE(first, text);
-    first = text;
-    Hello here, there;
-    here.case_name = there.case_name = "a case";
-    file.token().seal("/topic", here);
-    tokenOfRun(names_, go_).seal("/topic", there);
-    EXPECT_EQ(here.seal, there.seal);
-    file.remove();
-    EXPECT_FALSE(exists(path_));
-  }
-}
-
-TEST_F(TokenFiles, OfAPersonAreUsedAndStay) {
-  mkdir((folder_ / "new").c_str(), 0700);
-  write("a secret of a person\n");
-  Hello here, expected;
-  TokenFile(names_).token().seal("/topic", here);
-  Token("a secret of a person").seal("/topic", expected);
-  EXPECT_EQ(expected.seal, here.seal);
-  EXPECT_TRUE(exists(path_));
-}
-
-TEST_F(TokenFiles, ThatOthersCouldReadAreRefused) {
-  mkdir((folder_ / "new").c_str(), 0700);
-  write("a secret of a person\n", 0640);
-  EXPECT_NE(std::string::npos, refusal().find("others can read or write it; chmod 600 it"));
-  write("short", 0600);
-  EXPECT_NE(std::string::npos, refusal().find("holds 5 characters; a token has at least 16"));
 }
 
 /// Two runs in namespaces of their own.

@@ -149,22 +149,26 @@ class Viewer : public testing::Test {
     }
     return condition();
   }
+  void shows(const std::string& prefix);
   ros::NodeHandle node_;
   std::vector<ros::Publisher> publishers_;
   std::vector<ros::Subscriber> subscribers_;
   TemporaryFolder folder_;
 };
 
-TEST_F(Viewer, ShowsColoursLegendAndTheLegendsFrame) {
+/// The insect's frames have a prefix, which no parameter tells.
+void Viewer::shows(const std::string& prefix) {
   const Case c = caseWith("mirrored");
   tf2_msgs::TFMessage pose;
   pose.transforms.resize(1);
   pose.transforms[0].header.frame_id = "world";
-  pose.transforms[0].child_frame_id = "base_link";
+  pose.transforms[0].child_frame_id = prefix + "base_link";
   pose.transforms[0].transform.translation.x = 0.25;
   pose.transforms[0].transform.rotation.x = 1.0;
   publish(topics::kTf, pose);
-  publish(topics::kRightPressure, pressureCloud(surface(1.0f), Side::kRight, {2, 0}));
+  sensor_msgs::PointCloud2 cloud = pressureCloud(surface(1.0f), Side::kRight, {2, 0});
+  cloud.header.frame_id = prefix + cloud.header.frame_id;
+  publish(topics::kRightPressure, cloud);
   std_msgs::String text;
   text.data = c.resolved_yaml;
   publish(topics::kCase, text);
@@ -174,34 +178,41 @@ TEST_F(Viewer, ShowsColoursLegendAndTheLegendsFrame) {
   listen(topics::kPressureLegend, legends);
   listen(topics::kTf, transforms);
   Process viewer(std::string(NODE_DIR) + "/pressure_view", {}, folder_ / "viewer.log");
-  const auto ofLegend = [&]() -> const geometry_msgs::TransformStamped* {
+  const auto ofLegend = [&, name = prefix +
+                                   "pressure_legend"]() -> const geometry_msgs::TransformStamped* {
     for (const auto& message : transforms) {
       for (const auto& t : message.transforms)
-        if (t.child_frame_id == "pressure_legend") return &t;
+        if (t.child_frame_id == name) return &t;
     }
     return nullptr;
   };
   ASSERT_TRUE(comes([&] { return !colours.empty() && !legends.empty() && ofLegend() != nullptr; }))
       << viewer.output();
   EXPECT_EQ(2u, colours[0].markers.size());
+  EXPECT_EQ(prefix + "right_wing", colours[0].markers[0].header.frame_id);
   EXPECT_EQ("world", ofLegend()->header.frame_id);
   EXPECT_EQ(0.25, ofLegend()->transform.translation.x);
   EXPECT_EQ(1.0, ofLegend()->transform.rotation.w);  // it does not turn
   EXPECT_EQ(0.0, ofLegend()->transform.rotation.x);
   int numbers = 0;
   for (const Marker& marker : legends[0].markers) {
-    EXPECT_EQ("pressure_legend", marker.header.frame_id);
+    EXPECT_EQ(prefix + "pressure_legend", marker.header.frame_id);
     EXPECT_TRUE(marker.frame_locked);
     if (marker.type == Marker::TEXT_VIEW_FACING) ++numbers;
   }
   EXPECT_EQ(6, numbers);         // five numbers and the title
   publishers_[2].publish(text);  // a bag that is played again
-  publishers_[1].publish(pressureCloud(surface(2.0f), Side::kRight, {3, 0}));
+  cloud.header.stamp = {3, 0};
+  publishers_[1].publish(cloud);
   EXPECT_TRUE(comes([&] { return colours.size() == 2; }));
   EXPECT_EQ(1u, legends.size());
   viewer.send(SIGINT);
   EXPECT_EQ(0, viewer.wait(5.0)) << viewer.output();
 }
+
+TEST_F(Viewer, ShowsColoursLegendAndTheLegendsFrame) { shows(""); }
+
+TEST_F(Viewer, TakesThePrefixOfTheFramesFromTheClouds) { shows("lab/a/"); }
 
 }  // namespace
 }  // namespace monarch_flight

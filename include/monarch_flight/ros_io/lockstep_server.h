@@ -20,7 +20,7 @@ class LockstepServer {
 
   /// Serves one run, until the coordinator has ended it (ABORT) and left. Throws ExchangeError: no
   /// coordinator within connect_s, disagreement in the handshake, coordinator lost or silent for
-  /// silence_s, interrupted.
+  /// silence_s, interrupted; as EarlyEnd, where the coordinator has ended before the handshake.
   void serve();
 
   const IgnoredMessages& counters() const { return counters_; }

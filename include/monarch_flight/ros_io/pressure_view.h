@@ -3,6 +3,7 @@
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,8 @@ class PressureView {
   void onPressure(Side side, const sensor_msgs::PointCloud2ConstPtr& cloud);
   void onTransforms(const tf2_msgs::TFMessage& transforms);
   void show(Side side);
+  void showLegend();
+  void follow(const geometry_msgs::TransformStamped& body);
   visualization_msgs::MarkerArray named(visualization_msgs::MarkerArray markers) const;
 
   RunNames names_;
@@ -32,6 +35,8 @@ class PressureView {
   PerWing<ros::Subscriber> pressure_;
   std::string shown_;  // the case that the picture belongs to
   std::optional<PressurePicture> picture_;
+  std::optional<std::string> prefix_;  // of the insect's frames, as the clouds have it
+  std::map<std::string, geometry_msgs::TransformStamped> bodies_;  // the newest of each prefix
   PerWing<sensor_msgs::PointCloud2ConstPtr> newest_;
 };
 

@@ -38,7 +38,8 @@ class Checkpoints : public Keeper {
 
   /// Step of the newest checkpoint, if there is one.
   const std::optional<std::uint32_t>& kept() const { return kept_; }
-  /// What scripts/fly needs to go on from it.
+  /// The command that goes on from it: MONARCH_GO_ON of the environment, where monarch fly tells it
+  /// with all keys that are needed.
   std::string command() const;
   /// Set by a resumed run only.
   const std::optional<Resumption>& resumption() const { return resumption_; }

@@ -46,7 +46,7 @@ def values_from(words):
     faults += [f"strategies:={values['strategies']}: must be of {', '.join(STRATEGIES)}{keys.nearest(name, STRATEGIES)}"
                for name in values["strategies"].split(",") if name not in STRATEGIES]
     faults += [f"{name}:={values[name]}: must be numbers > 0" for name in NUMBERS if not positive(values[name])]
-    if not case_files.path_of(values["case"]).is_file():
+    if not os.path.isfile(case_files.path_of(values["case"])):
         faults.append(f"case:={values['case']}: neither a shipped case nor a file")
     if os.path.isdir(values["out"]) and os.listdir(values["out"]):
         faults.append(f"out:={values['out']}: holds something already; name a new folder")

@@ -1,4 +1,5 @@
 """Draws the paper's figures from recorded runs, flying what is missing on the preview grid."""
+import os
 import sys
 import types
 
@@ -32,9 +33,9 @@ def settings_from(words):
                for name in names if name not in NAMES]
     names = names or [name for name in NAMES if name != "control"]
     given = [places.person_path(folder) for folder in values.get("runs", "").split(",") if folder]
-    faults += [f"runs:={folder}: no such folder" for folder in given if not folder.is_dir()]
+    faults += [f"runs:={folder}: no such folder" for folder in given if not os.path.isdir(folder)]
     verification = places.person_path(values.get("verification", "verification"))
-    if "dynamics" in names and not (verification / "published_attitude.csv").exists():
+    if "dynamics" in names and not os.path.isfile(verification / "published_attitude.csv"):
         faults.append(f"verification:={verification}: holds no proof of the dynamics; run monarch verify dynamics")
     if faults:
         raise keys.Refused(*faults)

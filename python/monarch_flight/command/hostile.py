@@ -5,7 +5,7 @@ undisturbed one. The exit code is 0 only if every message was refused and counte
 for bit."""
 import subprocess
 
-from monarch_flight import keys, places, preparing
+from monarch_flight import keys, places, preparing, telling
 from monarch_flight.keys import Key
 
 
@@ -24,6 +24,7 @@ def run(arguments):
     from monarch_flight.runs import environment
     base = environment.of_flight(environment.sourced())
     limit = str(600 + int(arguments.messages))
-    return subprocess.run(["/usr/bin/python3", root / "test/ros/with_master.py", "--limit", limit,
+    code = subprocess.run(["/usr/bin/python3", root / "test/ros/with_master.py", "--limit", limit,
                            places.program("ros_hostile_test"), "--gtest_filter=*LeaveNoTrace*"],
                           env=dict(base, MONARCH_HOSTILE_MESSAGES=arguments.messages), check=False).returncode
+    return telling.passed_on(code, "the test", "hostile")

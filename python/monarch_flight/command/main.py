@@ -83,33 +83,48 @@ def interrupted(*_):
     raise KeyboardInterrupt
 
 
+def answer(after):
+    """To Ctrl-C, SIGTERM and the end of the terminal; what is ignored (nohup) stays so."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, after)
+
+
 def main(words):
     """Exit code."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) != signal.SIG_IGN:  # as with nohup
-            signal.signal(number, interrupted)
+    name = words[0].replace("_", "-") if words else "monarch"
+    try:
+        answer(interrupted)
+        return called(name, words)
+    except KeyboardInterrupt:
+        flown = " before the first step: nothing was flown" if name == "fly" else ""
+        telling.say("stopped by hand" + flown, name)
+        return telling.STOPPED
+    finally:
+        answer(signal.SIG_DFL)  # the interpreter is about to leave
+
+
+def called(name, words):
+    """Exit code of the command that the words name."""
     if not words or words[0] in ("-h", "--help"):
         print(overview(), end="")
         return 0 if words else 2
-    name, *others = words
-    name = name.replace("_", "-")
     if name not in COMMANDS:
         print(f"monarch: no command '{name}'{keys.nearest(name, COMMANDS)}\n\n{overview()}", end="", file=sys.stderr)
         return 2
     if name in SCRIPTS:
         script = preparing.source_only(name) / "scripts" / SCRIPTS[name]
-        os.execv(script, [str(script), *others])
+        os.execv(script, [str(script), *words[1:]])
     try:
         module = module_of(name)
-        return module.run(parsed(module, name, others)) or 0
+        return module.run(parsed(module, name, words[1:])) or 0
     except keys.Refused as refusal:
         return refused(name, refusal)
     except ModuleNotFoundError as missing:
         needs = " ".join(getattr(sys.modules.get(MODULES + name.replace("-", "_")), "SECTIONS", ("fly",)))
         print(f"{name}: {missing}; run {places.share()}/scripts/install {needs}" if places.source()
               else f"{name}: {missing}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        flown = " before the first step: nothing was flown" if name == "fly" else ""
-        telling.say("stopped by hand" + flown, name)
-        return 130
+        return telling.FAILED
+    except OSError as error:  # what the system refuses: a name that is too long, a folder that cannot be read
+        telling.say(str(error), name)
+        return telling.FAILED

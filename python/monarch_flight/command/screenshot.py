@@ -2,6 +2,7 @@
 the end or up to so many seconds of flight, and writes what rviz/monarch.rviz shows then.
 
 Needs no display and no graphics card. Takes about a minute."""
+import os
 import pathlib
 
 from monarch_flight import keys, places, preparing
@@ -26,7 +27,7 @@ def run(arguments):
     faults = []
     if bag is None:
         faults.append(f"no bag in {places.flights()}; fly first (monarch fly), or name one")
-    elif not bag.is_file():
+    elif not os.path.isfile(bag):
         faults.append(f"{bag} does not exist; name the flight.bag of a run")
     number = Key("seconds", "number", "", above=0)
     if arguments.seconds and not number.accepts(arguments.seconds):
@@ -34,7 +35,7 @@ def run(arguments):
     if faults:
         raise keys.Refused(*faults)
     picture = places.person_path(arguments.picture or bag.parent / "flight.png")
-    if not picture.parent.is_dir():
+    if not os.path.isdir(picture.parent):
         raise keys.Refused(f"{picture}: there is no folder {picture.parent}; make it, or name another picture")
     preparing.ready(*SECTIONS)
     from monarch_flight.figures import screenshot

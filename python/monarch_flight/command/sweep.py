@@ -6,6 +6,8 @@ out/table.csv, has a row for each flight, also for those that failed."""
 import os
 import re
 import shlex
+import shutil
+import sys
 
 from monarch_flight import case_files, keys, places, preparing
 from monarch_flight.keys import Key, Table
@@ -37,7 +39,7 @@ def values_from(words):
     if not re.fullmatch(r"[a-z_0-9/]+=[-+.0-9eE]+(,[-+.0-9eE]+)*", over):
         faults.append(f"over:={over}: must be key/below/insect=value,value,...; as wing/kappa=1e-4,1.5e-4")
     case = values.setdefault("case", "climb")
-    if not case_files.path_of(case).is_file():
+    if not os.path.isfile(case_files.path_of(case)):
         faults.append(f"case:={case}: neither a shipped case nor a file" + keys.nearest(case, case_files.shipped()))
     if faults:
         raise keys.Refused(*faults)
@@ -50,6 +52,9 @@ def run(arguments):
         return sweep.write_table(arguments.table[0], arguments.table[1:])
     values = values_from(arguments.words)
     preparing.ready(*SECTIONS)
+    base = dict(os.environ, PATH="/usr/bin:" + os.environ["PATH"])  # Snakemake is the system's
+    if not shutil.which("snakemake", path=base["PATH"]):
+        sys.exit("sweep: there is no snakemake; install it (Debian's package snakemake, or scripts/install sweep)")
     from monarch_flight.runs import sweep
     out = places.person_path(values.get("out", places.flights() / "sweep"))
     out.mkdir(parents=True, exist_ok=True)
@@ -59,6 +64,5 @@ def run(arguments):
                "--cores", values.get("jobs", os.cpu_count()), "--rerun-incomplete", "--keep-going", "--nolock",
                "--quiet", "rules",
                "--config", "monarch=" + shlex.join(places.monarch()), "options=" + options, *arguments.others]
-    # Built above, once for all; Snakemake is the system's.
-    preparing.must(command, env=dict(os.environ, PATH="/usr/bin:" + os.environ["PATH"], MONARCH_AS_BUILT="1"))
+    preparing.must(command, env=dict(base, MONARCH_AS_BUILT="1"))  # built above, once for all
     return 0

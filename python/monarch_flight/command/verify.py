@@ -10,10 +10,9 @@ monarch verify dynamics [NAME ...]
 
 The core is compiled without ROS. The exit code is 0 only if every row is within its bound. What the files hold of
 other names is kept."""
-import subprocess
-
 from monarch_flight import keys, preparing
 from monarch_flight.keys import Key, Table
+from monarch_flight.runs.programs import called
 
 SECTIONS = ("fly", "verify")
 KEYS = Table([
@@ -32,7 +31,7 @@ def flow(names, values):
     preparing.installed("fly", "verify")
     program = preparing.core_built("verify", "verify")
     out = values.get("out", "verification")
-    code = subprocess.run([program, *names, "out:=" + out], env=preparing.one_threaded(), check=False).returncode
+    code = called(program, [*names, "out:=" + out])
     if code in (0, 1):
         from monarch_flight.figures import verification
         verification.draw_all(out, values.get("images", out))
@@ -44,7 +43,7 @@ def dynamics(names, values):
     preparing.installed("fly", "dynamics")
     program = preparing.core_built("verify_dynamics", "verify dynamics")
     words = names + [f"out:={values['out']}"] * ("out" in values)
-    return subprocess.run([program, *words], env=preparing.one_threaded(), check=False).returncode
+    return called(program, words)
 
 
 def run(arguments):

@@ -6,6 +6,8 @@ import sys
 import tempfile
 import time
 
+import yaml
+
 from monarch_flight import places
 from monarch_flight.figures.screen import Screen
 from monarch_flight.runs import environment, master
@@ -62,7 +64,8 @@ def surroundings(screen, work):
     base = environment.of_flight(environment.sourced()) | screen.environment | dict(
         ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOSTNAME="localhost", ROS_LOG_DIR=str(work / "log"),
         XDG_RUNTIME_DIR=str(work))
-    base.pop("ROS_IP", None)
+    for name in ("ROS_IP", "ROS_NAMESPACE"):  # it has the usual names
+        base.pop(name, None)
     return base, port
 
 
@@ -77,6 +80,20 @@ def raise_curtain(stage, port):
     stage.wait_for(60, "rviz", lambda: master.listens(uri, "/rviz", "/monarch_flight/path"))
     stage.wait_for(30, "the wings' colours",
                    lambda: master.listens(uri, "/monarch_flight/pressure_view", "/monarch_flight/right_wing/pressure"))
+
+
+SHARED = ("/tf", "/tf_static", "/clock", "/diagnostics", "/rosout")
+
+
+def usual_names(topics):
+    """Words for rosbag play that give the topics of a run in any namespace the usual names, which rviz knows.
+    `topics`: as rosbag info has them."""
+    state = next((one["topic"] for one in topics if one["type"] == "monarch_flight/FlightState"), "/monarch_flight/state")
+    space = state.rpartition("/")[0]
+    if space == "/monarch_flight":
+        return []
+    own = [one["topic"] for one in topics if one["topic"].startswith(space + "/") and one["topic"] not in SHARED]
+    return [f"{topic}:=/monarch_flight{topic[len(space):]}" for topic in own]
 
 
 class Camera:
@@ -112,7 +129,8 @@ def take(bag, picture, seconds):
                 raise_curtain(stage, port)
                 length = seconds or float(stage.run("rosbag", "info", "-y", "-k", "duration", bag))
                 print(f"screenshot: replaying {length:g} s of flight", flush=True)
-                stage.run("rosbag", "play", "-q", "-r", length / PLAYING or 1.0, "-u", length, bag)
+                names = usual_names(yaml.safe_load(stage.run("rosbag", "info", "-y", "-k", "topics", bag)))
+                stage.run("rosbag", "play", "-q", "-r", length / PLAYING or 1.0, "-u", length, bag, *names)
                 camera = Camera(stage)
                 stage.wait_for(60, "the picture to stand still", camera.still)
                 shutil.copy(camera.now, picture)

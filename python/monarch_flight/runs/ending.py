@@ -1,12 +1,11 @@
 """What is told of a run that has ended, and the exit code of monarch fly."""
 import os
 import shlex
-import signal
 
 from monarch_flight.runs import node_keys, summary
-from monarch_flight.telling import say
+from monarch_flight.telling import FAILED, STOPPED, passed_on, say, signal_of
 
-COMPLETE, FAILED, REFUSED, STOPPED = 0, 1, 2, 130
+REFUSED = 2
 KEPT = ("ranks", *node_keys.ALL)  # keys that a resumed run needs again
 
 
@@ -14,12 +13,8 @@ def how(exit_code):
     """died (SIGKILL), or ended with exit code 1."""
     if exit_code is None:
         return "could not be started"
-    if exit_code >= 0:
-        return f"ended with exit code {exit_code}"
-    try:
-        return f"died ({signal.Signals(-exit_code).name})"
-    except ValueError:
-        return f"died (signal {-exit_code})"
+    name = signal_of(exit_code)
+    return f"died ({name})" if name else f"ended with exit code {exit_code}"
 
 
 def nodes(facts):
@@ -72,6 +67,7 @@ class Ending:
         if by_hand and self.told().get("status") != "complete":
             return self.stopped()
         nodes(facts)
+        code = passed_on(code, "the program that flies" if self.request.in_process else "the launcher", "fly")
         refused = code == REFUSED or any(fact["exit_code"] == REFUSED for fact in facts if fact["needed"])
         if not self.written("summary.json") and (code or refused or self.request.given("resume")):
             if self.written("flight.csv.active"):

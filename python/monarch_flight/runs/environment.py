@@ -9,7 +9,8 @@ ROS_OWN = ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP")  # the person's, not the 
 
 def has_sourced(prefix):
     """Whether this shell has the setup.bash of that place behind it, or of a workspace on top of it."""
-    return str(prefix) in os.environ.get("CMAKE_PREFIX_PATH", "").split(":") and "ROS_PACKAGE_PATH" in os.environ
+    sourced_ones = filter(None, os.environ.get("CMAKE_PREFIX_PATH", "").split(":"))
+    return os.path.realpath(prefix) in map(os.path.realpath, sourced_ones) and "ROS_PACKAGE_PATH" in os.environ
 
 
 def sourced():

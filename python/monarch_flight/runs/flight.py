@@ -1,13 +1,14 @@
 """Flies a request: over nodes on a master, or in one process."""
 import os
 import shlex
+import shutil
 import sys
 import tempfile
 
 from monarch_flight import places
 from monarch_flight.runs import environment, master, watched
-from monarch_flight.runs.ending import FAILED, STOPPED, Ending
-from monarch_flight.telling import say
+from monarch_flight.runs.ending import REFUSED, Ending
+from monarch_flight.telling import FAILED, STOPPED, passed_on, say
 
 PYTHON = "/usr/bin/python3"  # which has the ROS modules
 
@@ -54,7 +55,7 @@ class Nodes:
         line = f"source {shlex.quote(str(places.prefix() / 'setup.bash'))}"
         if places.source() and not all(os.access("/usr/bin/" + name, os.X_OK) for name in ("rostopic", "rosservice")):
             line = f"{shlex.quote(str(places.source() / 'scripts/install'))} tools && {line}"
-        given = " ".join(f"{name}={shlex.quote(self.environment[name])}" for name in ("ROS_MASTER_URI", "ROS_HOSTNAME")
+        given = " ".join(f"{name}={shlex.quote(self.environment[name])}" for name in ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_NAMESPACE")
                          if self.environment.get(name))
         return f"{line}; export {given} PATH=/usr/bin:$PATH"
 
@@ -73,11 +74,16 @@ def over_nodes(request):
 def fly(request, stop, command_name):
     """Exit code."""
     begin = now()
+    ending = Ending(request, begin, command_name)
+    os.environ["MONARCH_GO_ON"] = ending.again()  # for the advice of the program that flies
     chosen = in_process(request) if request.in_process else over_nodes(request)
     if chosen is None:
         return FAILED
+    if request.ranks > 1 and not request.plan and not shutil.which("mpirun", path=chosen[1].get("PATH")):
+        say(f"ranks:={request.ranks}: there is no mpirun in PATH; install openmpi-bin, or use ranks:=1")
+        return REFUSED
     sys.stdout.flush()
     code, facts = watched.run(*chosen, stop)
     if request.plan:
-        return STOPPED if stop.heard else code
-    return Ending(request, begin, command_name).of(code, facts, stop.heard)
+        return STOPPED if stop.heard else passed_on(code, "the program that plans", "plan")
+    return ending.of(code, facts, stop.heard)

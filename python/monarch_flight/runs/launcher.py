@@ -112,10 +112,10 @@ def main(words):
         return 2
     try:
         return launch(facts, int(port), file, keys)
-    except (roslaunch.core.RLException, ValueError, rospkg.ResourceNotFound) as error:
+    except (roslaunch.core.RLException, OSError, ValueError, rospkg.ResourceNotFound) as error:
         if interrupt.heard:
             return 130
-        print(f"fly: {str(error).splitlines()[0]}", file=sys.stderr)
+        print("fly: " + next(iter(str(error).splitlines()), type(error).__name__), file=sys.stderr)
         return 2 if facts.pm is None else 1
 
 

@@ -1,13 +1,20 @@
 """Calls compiled programs of the package that read their key:=value themselves."""
+import pathlib
 import subprocess
+import sys
 
-from monarch_flight import places, preparing
+from monarch_flight import places, preparing, telling
 
 
 def called(program, words):
     """Exit code."""
     environment = preparing.one_threaded(MONARCH_CONFIG=str(places.config()))
-    return subprocess.run([str(program), *words], env=environment, check=False).returncode
+    try:
+        code = subprocess.run([str(program), *words], env=environment, check=False).returncode
+    except OSError as error:
+        sys.exit(f"monarch: {program} cannot be started: {error.strerror}; build the package again")
+    name = pathlib.Path(program).name
+    return telling.passed_on(code, "the program " + name, name)
 
 
 def called_with_case(program, words):

@@ -82,7 +82,7 @@ class Check:
             os.path.join(self.resumed, "case.yaml") if self.resumed else keys.run_keys()["case"].default)
         path = case_files.path_of(wanted)
         self.name = pathlib.Path(self.replayed).name if self.replayed and self.replayed != "/" else path.stem
-        if path.is_file():
+        if os.path.isfile(path):
             shipped = path.parent == places.config() / "cases" and path.stem == wanted
             self.values["case"] = wanted if shipped else os.path.abspath(path)
         elif "case" in self.values:
@@ -91,7 +91,7 @@ class Check:
                        + keys.nearest(wanted, cases))
         try:
             content = case_files.read(path)
-        except (OSError, UnicodeDecodeError, yaml.YAMLError):  # whoever flies it says what is wrong
+        except (OSError, ValueError, RecursionError, yaml.YAMLError):  # whoever flies it says what is wrong
             return {}
         return content if isinstance(content, dict) else {}
 
@@ -99,8 +99,11 @@ class Check:
         stamp = time.strftime("%Y%m%d-%H%M%S")
         out = self.values.get("resume") or self.values.get("out") or places.flights() / f"{self.name}-{stamp}"
         folder = places.person_path(out)
-        if not self.resumed and folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
-            self.faults.append(f"out:={out}: holds something already; name a new folder")
+        try:
+            if not self.resumed and folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
+                self.faults.append(f"out:={out}: holds something already; name a new folder")
+        except OSError as error:
+            self.faults.append(f"out:={out}: {error.strerror}; name another folder")
         if not self.resumed:
             self.values["out"] = str(folder)
         return folder
@@ -126,6 +129,14 @@ class Check:
         """The nodes must know whether the left wing has a fluid of its own."""
         if case.get("wings") == "independent":
             self.values.setdefault("wings", "independent")
+
+    def paths(self):
+        """A launch file puts them between quotes into the command of a parameter."""
+        if "true" in (self.values.get("in_process"), self.values.get("plan")):
+            return
+        for name in ("case", "resume"):
+            if set(self.values.get(name, "")) & set('"\\'):
+                self.fault(name, 'a run with nodes cannot use a path with " or \\; rename it, or fly with in_process:=true')
 
     def transport(self):
         """What needs nodes, and a display."""
@@ -154,6 +165,7 @@ def request(words, environment=None):
     leader = check.leader(case)
     check.wings(case)
     check.transport()
+    check.paths()
     if faults:
         raise keys.Refused(*faults)
     return Request(values, folder, leader)

@@ -68,8 +68,13 @@ def show(folder):
     if told is None:
         print("summary: failed: " + problem, file=sys.stderr)
         return 1
+    try:
+        rows = list(table(told))
+    except (KeyError, TypeError, AttributeError) as error:
+        print("summary: failed: %s/summary.json is not that of a run: it lacks %s" % (folder, error), file=sys.stderr)
+        return 1
     print("summary of %s" % folder)
-    for name, text in table(told):
+    for name, text in rows:
         print("  %-15s %s" % (name, text))
     for name in sorted(os.listdir(folder)):
         print("  %-15s %.1f kB" % (name, os.path.getsize(os.path.join(folder, name)) / 1e3))

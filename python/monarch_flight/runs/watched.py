@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from monarch_flight.telling import say
+from monarch_flight.telling import FAILED, say
 
 MARK = "MONARCH_FLIGHT_RUN"  # in the environment of every process of the run
 PATIENCE = 20.0  # s, for the checkpoint of nodes that are asked to end
@@ -88,15 +88,21 @@ def held():
 
 
 def run(command, environment, stop):
-    """(exit code, facts) of a command that runs in a session of its own. FACTS among its words is replaced by the
+    """(exit code, negative where a signal ended it; facts) of a command that runs in a session of its own. FACTS among its words is replaced by the
     number of a file into which it writes lines of JSON."""
     mark, facts = secrets.token_hex(8), "FACTS" in command
     read, write = os.pipe()
     words = [str(write) if word == "FACTS" else str(word) for word in command]
     stop.starting = True
-    stop.child = subprocess.Popen(words, env=dict(environment, **{MARK: mark}), start_new_session=True,
-                                  preexec_fn=held if facts else fresh, pass_fds=[write] if facts else [])
-    os.close(write)
+    try:
+        stop.child = subprocess.Popen(words, env=dict(environment, **{MARK: mark}), start_new_session=True,
+                                      preexec_fn=held if facts else fresh, pass_fds=[write] if facts else [])
+    except OSError as error:
+        os.close(read)
+        say(f"{words[0]} cannot be started: {error.strerror}")
+        return FAILED, []
+    finally:
+        os.close(write)
     if stop.heard:  # while it was started
         stop.hand_on()
     code = stop.child.wait()
@@ -104,4 +110,4 @@ def run(command, environment, stop):
     os.set_blocking(read, False)
     with os.fdopen(read, "rb") as file:
         lines = (file.read() or b"").splitlines()
-    return (128 - code if code < 0 else code), [json.loads(line) for line in lines if line.endswith(b"}")]
+    return code, [json.loads(line) for line in lines if line.endswith(b"}")]

@@ -1,6 +1,7 @@
 """A flight whose wingbeat was led (docs/run_files.md), cut into the flaps of its phase clock."""
 import dataclasses
 import math
+import os
 
 import numpy as np
 
@@ -58,7 +59,7 @@ class LedFlight:
     def __init__(self, folder):
         self.folder = folder
         faults = [f"{folder / name}: does not exist; give the folder of a run that was flown to its end"
-                  for name in ("case.yaml", "flight.csv") if not (folder / name).is_file()]
+                  for name in ("case.yaml", "flight.csv") if not os.path.isfile(folder / name)]
         if faults:
             raise Unfit(*faults)
         self.case = case_files.read(folder / "case.yaml")

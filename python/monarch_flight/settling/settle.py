@@ -1,6 +1,7 @@
 """Whether a flight that is led has settled, and the case of its periodic flight (monarch settle, docs/trim.md)."""
 import dataclasses
 import math
+import os
 import pathlib
 import re
 import sys
@@ -117,7 +118,7 @@ def settings_from(words):
     out = pathlib.Path(values["out"]) if "out" in values else None
     if out is not None and (out.suffix != ".yaml" or not re.fullmatch(r"[A-Za-z0-9_.-]{1,200}", out.stem)):
         faults.append(f"out:={out}: must end in .yaml, its name of letters, digits and _ - . only; it names the case")
-    if out is not None and out.exists():
+    if out is not None and os.path.lexists(out):
         faults.append(f"out:={out}: exists already; name another file or move that one away")
     if faults:
         raise Refused(*faults)

@@ -10,6 +10,7 @@ import subprocess
 import time
 
 from monarch_flight import places
+from monarch_flight.trials.watched_flight import Flight
 
 ROOT = str(places.source())
 EVERY = 25  # steps between checkpoints
@@ -20,7 +21,6 @@ AIR = {"quasi_steady": ("fluid:=quasi_steady", "flaps:=0.5", "steps_per_flap:=40
        "navier_stokes": ("fluid:=navier_stokes", "grid:=preview", "flaps:=0.25", "steps_per_flap:=300", "ranks:=2")}
 AIR.update({"two_wings": (*AIR["quasi_steady"], "wings:=independent"),
             "navier_stokes_two_wings": (*AIR["navier_stokes"], "wings:=independent")})
-STARTED = r"process\[(?:monarch_flight/)?([a-z_]+?)(?:-\d+)?\]: started with pid \[(\d+)\]"
 SHIFTED_CLOCK = os.path.join(ROOT, "test", "flights", "shifted_clock.c")
 
 
@@ -30,72 +30,6 @@ class Fault:
     def __init__(self, name, act, says, limit=40.0, air="quasi_steady", random=True, **environment):
         self.name, self.act, self.says, self.limit = name, act, says, limit
         self.air, self.random, self.environment = air, random, environment
-
-
-class Flight:
-    """One run of monarch fly in a folder."""
-
-    def __init__(self, folder, keys, environment):
-        self.folder, self.log = folder, folder + ".txt"
-        env = {k: v for k, v in os.environ.items() if not k.startswith("ROS_") and k != "DISPLAY"}
-        env.update(MONARCH_AS_BUILT="1", ROS_LOG_DIR=folder + ".log", **environment)
-        with open(self.log, "a") as log:
-            # Commands in a shell's background do not hear SIGINT, and hand that on.
-            self.process = subprocess.Popen([*places.monarch(), "fly", *keys], stdout=log, stderr=log, env=env,
-                                            stdin=subprocess.DEVNULL, start_new_session=True,
-                                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-
-    def output(self):
-        with open(self.log, errors="replace") as f:
-            return f.read()
-
-    def pids(self):
-        return {name: int(pid) for name, pid in re.findall(STARTED, self.output())}
-
-    def step(self):
-        """The last step in the table of the flight, which may have any of its names."""
-        for name in ("flight.csv.active", "flight.csv"):
-            try:
-                with open(os.path.join(self.folder, name)) as f:
-                    return max(f.read().count("\n") - 2, 0)
-            except FileNotFoundError:
-                continue
-        return 0
-
-    def wait_for_step(self, step, limit=120):
-        deadline = time.monotonic() + limit
-        while self.step() < step and time.monotonic() < deadline and self.process.poll() is None:
-            time.sleep(0.01)
-
-    def end(self, limit):
-        """Exit code, or None when it had to be ended by force: a hang."""
-        try:
-            return self.process.wait(limit)
-        except subprocess.TimeoutExpired:
-            for pid in (*self.pids().values(), self.process.pid):
-                try:
-                    os.kill(pid, signal.SIGKILL)
-                except ProcessLookupError:
-                    pass
-            self.process.wait()
-            return None
-
-    def leftovers(self):
-        """Nodes that outlive the run by two seconds."""
-        deadline = time.monotonic() + 2
-        while True:
-            alive = [name for name, pid in self.pids().items() if is_running(pid)]
-            if not alive or time.monotonic() > deadline:
-                return alive
-            time.sleep(0.1)
-
-
-def is_running(pid):
-    try:
-        with open("/proc/%d/stat" % pid) as f:
-            return f.read().rsplit(")", 1)[1].split()[0] != "Z"
-    except (FileNotFoundError, ProcessLookupError):
-        return False
 
 
 def sent(name, what):

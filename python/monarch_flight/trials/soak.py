@@ -1,7 +1,6 @@
 """A long flight in quasi-steady air under watch (monarch soak)."""
 import json
 import os
-import re
 import shutil
 import signal
 import statistics
@@ -11,8 +10,10 @@ import tempfile
 import time
 
 from monarch_flight import places
+from monarch_flight.trials import processes
 
 STEPS_PER_FLAP = 500
+NODES = ("coordinator", "fluid", "flight", "wing")
 PER_STEP = 2  # sub-iterations of a step of this case
 MEMORY, DESCRIPTORS, COMPUTING = 2.0, 0, 1.25  # limits: MB, count, ratio
 
@@ -46,11 +47,10 @@ def single_process(out):
     return {}
 
 
-def nodes(log):
-    """{name: pid} as roslaunch tells them, once all are started."""
-    with open(log) as f:
-        pids = re.findall(r"process\[monarch_flight/(\w+)-\d+\]: started with pid \[(\d+)\]", f.read())
-    return {name: int(pid) for name, pid in pids} if len(pids) >= 4 else {}  # all of them
+def nodes(out):
+    """{name: pid} of the solvers and the coordinator, once all are there."""
+    found = {name: pid for name, pid in processes.nodes(out).items() if name in NODES}
+    return found if len(found) == len(NODES) else {}
 
 
 def watch(process, find, table):
@@ -93,9 +93,10 @@ def fly(count, over_nodes, folder):
                "steps_per_flap:=%d" % STEPS_PER_FLAP, "out:=" + out]
     command += ["rviz:=false"] if over_nodes else ["in_process:=true"]
     with open(log, "w") as f:
-        process = subprocess.Popen(command, stdout=f, stderr=subprocess.STDOUT)
+        process = subprocess.Popen(command, stdout=f, stderr=subprocess.STDOUT,
+                                   env=dict(os.environ, **processes.marked(out)))
     try:
-        samples = watch(process, (lambda: nodes(log)) if over_nodes else (lambda: single_process(out)),
+        samples = watch(process, (lambda: nodes(out)) if over_nodes else (lambda: single_process(out)),
                         os.path.join(out, "flight.csv.active"))
     finally:
         if process.poll() is None:

@@ -1,5 +1,10 @@
 #include "monarch_flight/run/checkpoints.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/csv_tables.h"
 #include "monarch_flight/run/federation.h"
@@ -10,6 +15,18 @@ namespace monarch_flight {
 namespace {
 
 constexpr char kCoordinator[] = "coordinator";
+
+/// One word of a shell.
+std::string forShell(const std::string& text) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::strchr("/._-+,=@%", c) != nullptr;
+  };
+  if (std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string quoted;
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return "'" + quoted + "'";
+}
 
 }  // namespace
 
@@ -90,7 +107,8 @@ std::string Checkpoints::problemOf(std::uint32_t step, const Case& c, const std:
 }
 
 std::string Checkpoints::command() const {
-  return "scripts/fly resume:=" + out_ +
+  if (const char* known = std::getenv("MONARCH_GO_ON")) return known;  // by whoever started the run
+  return "monarch fly resume:=" + forShell(out_) +
          (facts_.ranks > 1 ? " ranks:=" + std::to_string(facts_.ranks) : "") +
          (led_by_node_ ? " guidance_node:=<its program>" : "");
 }
