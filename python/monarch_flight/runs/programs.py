@@ -1,13 +1,12 @@
 """Calls compiled programs of the package that read their key:=value themselves."""
 import subprocess
 
-from monarch_flight import places, preparing
+from monarch_flight import preparing
 
 
 def called(program, words):
     """Exit code."""
-    environment = preparing.one_threaded(MONARCH_CONFIG=str(places.config()))
-    return subprocess.run([str(program), *words], env=environment, check=False).returncode
+    return subprocess.run([str(program), *words], env=preparing.one_threaded(), check=False).returncode
 
 
 def called_with_case(program, words):

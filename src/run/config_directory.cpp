@@ -1,0 +1,34 @@
+#include "monarch_flight/run/config_directory.h"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "monarch_flight/math/errors.h"
+
+namespace monarch_flight {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of this library, links followed.
+fs::path libraryFile() {
+  Dl_info place;
+  static const int here = 0;
+  std::error_code none;
+  return dladdr(&here, &place) != 0 ? fs::weakly_canonical(place.dli_fname, none) : fs::path();
+}
+
+}  // namespace
+
+std::string configDirectory() {
+  const fs::path found =
+      libraryFile().parent_path().parent_path() / "share/monarch_flight/config";
+  std::error_code none;
+  if (fs::is_directory(found, none)) return found;
+  throw InputError("no configuration: there is no " + found.string() +
+                   "; build or install the package again");
+}
+
+}  // namespace monarch_flight
