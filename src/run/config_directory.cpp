@@ -23,12 +23,15 @@ fs::path libraryFile() {
 }  // namespace
 
 std::string configDirectory() {
-  const fs::path found =
-      libraryFile().parent_path().parent_path() / "share/monarch_flight/config";
+  const fs::path library = libraryFile();
   std::error_code none;
-  if (fs::is_directory(found, none)) return found;
-  throw InputError("no configuration: there is no " + found.string() +
-                   "; build or install the package again");
+  for (fs::path place = library.parent_path(); place.has_relative_path();
+       place = place.parent_path()) {
+    const fs::path found = place / "share/monarch_flight/config";
+    if (fs::is_directory(found, none)) return found;
+  }
+  throw InputError("no configuration: there is no share/monarch_flight/config above " +
+                   library.string() + "; build or install the package again");
 }
 
 }  // namespace monarch_flight

@@ -21,7 +21,7 @@ def naming(prefix, folders):
                 with open(path, "rb") as file:
                     content = file.read().replace(os.fsencode(prefix), b"")
                 found += [path for word in words if word in content]
-    return sorted(set(found))
+    return sorted({os.path.relpath(path, prefix) for path in found})
 
 
 def runnable():

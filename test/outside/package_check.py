@@ -14,6 +14,8 @@ PACKAGE, *FOLDERS = sys.argv[1:]
 
 
 class Package(unittest.TestCase):
+    maxDiff = None
+
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="package_check_")
