@@ -1,7 +1,7 @@
 # Files of the flow for ParaView. VTK is wanted for them alone: without it the rest is built, and a
 # case that asks for fields is refused.
 file(GLOB fields_files CONFIGURE_DEPENDS src/fields/*.cpp src/fields/*.h include/monarch_flight/fields/*.h)
-forbid_ros(fields ${fields_files})
+monarch_forbid_ros(fields ${fields_files})
 find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel IOXML)
 if(VTK_FOUND)
   add_library(monarch_fields SHARED src/fields/field_output.cpp src/fields/vtk_data.cpp)

@@ -1,9 +1,10 @@
 # Short whole flights through scripts/fly, one file test/flights/*_test.py each. `ctest -L flight` runs them.
 file(GLOB flight_tests CONFIGURE_DEPENDS test/flights/*_test.py)
 # A guidance node of one's own in C++, which own_guidance_test.py and hostile_test.cpp fly.
-add_executable(own_guidance_node test/flights/own_guidance_node.cpp)
-target_link_libraries(own_guidance_node PRIVATE monarch_ros_io)
-add_dependencies(ros_hostile_test own_guidance_node)
+monarch_test_program(own_guidance_node test/flights/own_guidance_node.cpp)
+set_target_properties(monarch_own_guidance_node PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${NODE_DIR})
+target_link_libraries(monarch_own_guidance_node PRIVATE monarch_ros_io)
+add_dependencies(monarch_ros_hostile_test monarch_own_guidance_node)
 
 foreach(source ${flight_tests})
   get_filename_component(name ${source} NAME_WE)

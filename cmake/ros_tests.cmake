@@ -1,7 +1,7 @@
 # ROS tests: one gtest per file test/ros/*_test.cpp, each with a master of its own on a free port and a
 # time limit; python checks test/ros/*_check.py likewise. `ctest -L ros` runs them.
-find_package(GTest REQUIRED)
 find_package(tf2 REQUIRED)
+set(NODE_DIR ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
 set(ROS_TEST_RUNNER ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/with_master.py)
 math(EXPR WITH_MASTER_LIMIT "${TEST_LIMIT} + 20")
 set(ROS_TEST_ENVIRONMENT "OPENBLAS_NUM_THREADS=1"
@@ -14,17 +14,14 @@ endif()
 file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
 foreach(source ${ros_tests})
   get_filename_component(name ${source} NAME_WE)
-  add_executable(ros_${name} ${source} test/ros/main.cpp)
-  target_link_libraries(ros_${name} PRIVATE monarch_ros_io ${tf2_LIBRARIES} nlohmann_json::nlohmann_json
-    GTest::gtest)
-  target_include_directories(ros_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/test)
-  target_compile_definitions(ros_${name} PRIVATE
-    NODE_DIR="${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}"
-    CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config"
-    URDF_DIR="${CMAKE_CURRENT_SOURCE_DIR}/urdf")
-  add_dependencies(ros_${name} nodes)
+  monarch_test_program(ros_${name} ${source} test/ros/main.cpp)
+  # Beside the nodes: monarch hostile calls one of them.
+  set_target_properties(monarch_ros_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${NODE_DIR})
+  target_link_libraries(monarch_ros_${name} PRIVATE monarch_ros_io ${tf2_LIBRARIES} nlohmann_json::nlohmann_json)
+  target_compile_definitions(monarch_ros_${name} PRIVATE NODE_DIR="${NODE_DIR}")
+  add_dependencies(monarch_ros_${name} monarch_nodes)
   add_test(NAME ros_${name}
-    COMMAND ${PYTHON_EXECUTABLE} ${ROS_TEST_RUNNER} --limit ${TEST_LIMIT} $<TARGET_FILE:ros_${name}>)
+    COMMAND ${PYTHON_EXECUTABLE} ${ROS_TEST_RUNNER} --limit ${TEST_LIMIT} $<TARGET_FILE:monarch_ros_${name}>)
   set_tests_properties(ros_${name} PROPERTIES TIMEOUT ${WITH_MASTER_LIMIT} LABELS ros
     ENVIRONMENT "${ROS_TEST_ENVIRONMENT}")
 endforeach()

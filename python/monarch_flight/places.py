@@ -70,12 +70,6 @@ def program(name):
     return prefix() / "lib" / PACKAGE / name
 
 
-def core_program(name):
-    """One of those that are compiled without ROS, too: their place is another one then."""
-    bare = own_build() / name if own_build() is not None else None
-    return bare if bare is not None and os.access(bare, os.X_OK) else program(name)
-
-
 def monarch():
     """The words that call monarch from a program."""
     here = source() / "scripts/monarch" if source() is not None else share().parent.parent / "bin/monarch"

@@ -42,21 +42,22 @@ def source_only(command):
     return places.source()
 
 
-def core_built(target, what):
-    """The program `target` of the core, compiled without ROS into build_verify/."""
+def core_built(name, what):
+    """The program `name` of the core, compiled without ROS into build_verify/."""
     root = source_only(what)
     build = os.environ.get("MONARCH_VERIFY_BUILD") or root / "build_verify"
     os.makedirs(build, exist_ok=True)
     log = os.path.join(build, "build.log")
     print(f"{what}: compiling into {build}", flush=True)
     with open(log, "w", encoding="utf-8") as file:
-        for command in (["cmake", "-S", root, "-B", build, "-DMONARCH_ROS=OFF", "-DMONARCH_TESTS=OFF"],
-                        ["cmake", "--build", build, "--target", target, "-j", str(os.cpu_count())]):
+        for command in (["cmake", "-S", root, "-B", build, "-DMONARCH_ROS=OFF", "-DMONARCH_TESTS=OFF",
+                         "-DMONARCH_NATIVE=ON"],
+                        ["cmake", "--build", build, "--target", "monarch_" + name, "-j", str(os.cpu_count())]):
             if subprocess.run([str(word) for word in command], stdout=file, stderr=file, check=False).returncode:
                 with open(log, encoding="utf-8", errors="replace") as told:
                     sys.stderr.writelines(told.readlines()[-40:])
                 sys.exit(f"{what}: it does not compile; the reason is above, the whole log in {log}")
-    return os.path.join(build, target)
+    return os.path.join(build, "devel/lib", places.PACKAGE, name)
 
 
 def one_threaded(**more):

@@ -1,13 +1,13 @@
 // monarch inverse-dynamics without ROS: what a flown motion needs besides air and gravity.
 #include "monarch_flight/run/inverse_dynamics.h"
 
-#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <map>
 #include <string>
 
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/run/config_directory.h"
 
 namespace {
 
@@ -47,10 +47,9 @@ double number(const std::map<std::string, std::string>& values, const std::strin
 int main(int argc, char** argv) {
   try {
     const auto values = arguments(argc, argv);
-    const char* config = std::getenv("MONARCH_CONFIG");
     monarch_flight::runInverseDynamics(values.at("run"), number(values, "from"),
-                                       number(values, "to"),
-                                       config != nullptr ? config : MONARCH_CONFIG_DIR, std::cout);
+                                       number(values, "to"), monarch_flight::configDirectory(),
+                                       std::cout);
     return 0;
   } catch (const InputError& e) {
     std::cerr << "inverse_dynamics: " << e.what() << std::endl;

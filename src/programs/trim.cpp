@@ -1,15 +1,14 @@
 // monarch trim without ROS: finds a periodic flight of a case.
-#include <cstdlib>
 #include <exception>
 #include <iostream>
 
 #include "monarch_flight/math/errors.h"
+#include "monarch_flight/run/config_directory.h"
 #include "monarch_flight/trim/command.h"
 
 int main(int argc, char** argv) {
   try {
-    const char* config = std::getenv("MONARCH_CONFIG");
-    const std::string config_dir = config != nullptr ? config : MONARCH_CONFIG_DIR;
+    const std::string config_dir = monarch_flight::configDirectory();
     const auto command = monarch_flight::trimCommand({argv + 1, argv + argc});
     return command.control ? monarch_flight::runControl(command, config_dir, std::cout)
                            : monarch_flight::runTrim(command, config_dir, std::cout);

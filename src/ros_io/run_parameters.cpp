@@ -1,7 +1,6 @@
 #include "monarch_flight/ros_io/run_parameters.h"
 
 #include <XmlRpcValue.h>
-#include <dlfcn.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -118,13 +117,6 @@ std::string text(XmlRpc::XmlRpcValue& value) {
   }
 }
 
-// Of this library.
-std::string libraryFile() {
-  Dl_info place;
-  static const int here = 0;
-  return dladdr(&here, &place) != 0 ? fs::absolute(place.dli_fname).string() : "";
-}
-
 }  // namespace
 
 RunParameters runParameters(const Values& values, const std::string& where) {
@@ -213,18 +205,6 @@ std::string outputDirectory(const RunParameters& parameters, const Case& c) {
   char stamp[32];
   std::strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", std::localtime(&now));
   return fs::absolute(base / "flights" / (c.name + "-" + stamp)).lexically_normal();
-}
-
-std::string configDirectory() {
-  std::error_code none;
-  // <prefix>/lib/<this library> and <prefix>/share/monarch_flight/config, whoever links with it.
-  const fs::path installed =
-      fs::path(libraryFile()).parent_path().parent_path() / "share/monarch_flight/config";
-  if (fs::is_directory(installed, none)) return installed;
-  const fs::path source = fs::path(MONARCH_SOURCE_SHARE) / "config";
-  if (fs::is_directory(source, none)) return source;
-  throw InputError("no configuration: neither " + installed.string() + " nor " + source.string() +
-                   " exists; build or install the package again");
 }
 
 }  // namespace monarch_flight

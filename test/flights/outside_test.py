@@ -11,6 +11,7 @@ import unittest
 import yaml
 
 import flying
+import installed_tree
 
 OUTSIDE = os.path.join(flying.ROOT, "test", "outside")
 INSTALL = os.environ.get("MONARCH_INSTALL", "")
@@ -169,6 +170,13 @@ class Install(Outside, unittest.TestCase):
     def test_the_source_tree_is_not_needed(self):
         for name, value in self.sourced().items():
             self.assertNotIn(flying.ROOT + "/python", value, name)
+
+    def test_no_file_names_the_source_tree(self):
+        self.assertEqual(installed_tree.naming(INSTALL, [flying.ROOT, flying.BUILD]), [])
+
+    @unittest.skipUnless(os.path.isdir(os.path.join(flying.BUILD, "devel/lib/glibc-hwcaps")), "built for this machine alone")
+    def test_every_level_flies(self):
+        installed_tree.check_levels(self, INSTALL)
 
 
 def plain():

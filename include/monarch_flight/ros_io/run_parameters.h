@@ -3,6 +3,7 @@
 #include <string>
 
 #include "monarch_flight/run/case.h"
+#include "monarch_flight/run/config_directory.h"
 
 namespace XmlRpc {
 class XmlRpcValue;
@@ -46,8 +47,5 @@ void requireProcesses(const RunParameters& parameters, const Case& c);
 std::string plannedRun(const RunParameters& parameters, const Case& c, bool nodes);
 /// Where the run writes: absolute path.
 std::string outputDirectory(const RunParameters& parameters, const Case& c);
-/// The config folder: of the prefix in which this library is installed, else of the source tree it
-/// was built from. Throws InputError when neither is there.
-std::string configDirectory();
 
 }  // namespace monarch_flight

@@ -21,5 +21,6 @@ def run(arguments):
     _, _, faults = KEYS.read(arguments.words)
     if faults:
         raise keys.Refused(*faults)
-    preparing.ready("fly")
-    return called(places.core_program("inverse_dynamics"), ["run:=" + arguments.run, *arguments.words])
+    preparing.installed("fly")
+    preparing.built("--programs")
+    return called(places.program("inverse_dynamics"), ["run:=" + arguments.run, *arguments.words])

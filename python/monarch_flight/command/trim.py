@@ -45,5 +45,6 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    preparing.ready("fly")
-    return called_with_case(places.core_program("trim"), arguments.words)
+    preparing.installed("fly")
+    preparing.built("--programs")
+    return called_with_case(places.program("trim"), arguments.words)

@@ -15,10 +15,10 @@ def has_sourced(prefix):
 
 def sourced():
     """That of this process, after the setup.bash of the build or the installation in use. Where that is done it is not
-    done again: it would take workspaces on top of it away."""
+    done again: it would take workspaces on top of it away. A Debian package has none, and needs none."""
     script = places.prefix() / "setup.bash"
     base = dict(os.environ, PATH="/usr/bin:" + os.environ.get("PATH", ""))
-    if has_sourced(places.prefix()):
+    if has_sourced(places.prefix()) or not script.is_file():
         return base
     told = subprocess.run(["bash", "-c", 'source "$1" >/dev/null && env -0', "bash", str(script)], check=True,
                           env=base, stdout=subprocess.PIPE).stdout

@@ -52,12 +52,15 @@ class Nodes:
 
     def second_shell(self):
         """One line to copy, for whoever leads the run from there."""
-        line = f"source {shlex.quote(str(places.prefix() / 'setup.bash'))}"
-        if places.source() and not all(os.access("/usr/bin/" + name, os.X_OK) for name in ("rostopic", "rosservice")):
-            line = f"{shlex.quote(str(places.source() / 'scripts/install'))} tools && {line}"
         given = " ".join(f"{name}={shlex.quote(self.environment[name])}" for name in ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_NAMESPACE")
                          if self.environment.get(name))
-        return f"{line}; export {given} PATH=/usr/bin:$PATH"
+        line = f"export {given} PATH=/usr/bin:$PATH"
+        script = places.prefix() / "setup.bash"
+        if script.is_file():  # a Debian package has none
+            line = f"source {shlex.quote(str(script))}; {line}"
+        if places.source() and not all(os.access("/usr/bin/" + name, os.X_OK) for name in ("rostopic", "rosservice")):
+            line = f"{shlex.quote(str(places.source() / 'scripts/install'))} tools && {line}"
+        return line
 
 
 def over_nodes(request):

@@ -3,12 +3,12 @@ import pathlib
 import subprocess
 import sys
 
-from monarch_flight import places, preparing, telling
+from monarch_flight import preparing, telling
 
 
 def called(program, words):
     """Exit code."""
-    environment = preparing.one_threaded(MONARCH_CONFIG=str(places.config()))
+    environment = preparing.one_threaded()
     try:
         code = subprocess.run([str(program), *words], env=environment, check=False).returncode
     except OSError as error:

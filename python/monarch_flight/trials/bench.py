@@ -28,7 +28,7 @@ def run(command, **options):
 
 
 def program(name):
-    return os.path.join(BUILD, "bench_" + name)
+    return os.path.join(BUILD, "devel/lib", places.PACKAGE, "bench_" + name)
 
 
 class Table:
@@ -57,9 +57,10 @@ class Table:
 
 
 def build(targets):
-    run(["cmake", "-S", ROOT, "-B", BUILD, "-DMONARCH_ROS=OFF", "-DMONARCH_TESTS=OFF", "-DMONARCH_BENCH=ON"])
+    run(["cmake", "-S", ROOT, "-B", BUILD, "-DMONARCH_ROS=OFF", "-DMONARCH_TESTS=OFF", "-DMONARCH_NATIVE=ON",
+         "-DMONARCH_BENCH=ON"])
     with open(os.path.join(BUILD, "build.log"), "w") as log:
-        done = subprocess.run(["make", "-C", BUILD, "-j2"] + ["bench_" + t for t in targets], stdout=log, stderr=log)
+        done = subprocess.run(["make", "-C", BUILD, "-j2"] + ["monarch_bench_" + t for t in targets], stdout=log, stderr=log)
     if done.returncode != 0:
         fail("the build failed, see " + log.name)
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "monarch_flight/fluid/instruction_set.h"
 #include "monarch_flight/math/seconds_since.h"
 #include "monarch_flight/run/remarks.h"
 
@@ -200,6 +201,7 @@ std::string Summary::json(const std::string& failure) const {
   j["case"] = case_.name;
   j["case_sha256"] = case_.sha256;
   j["version"] = MONARCH_FLIGHT_VERSION;
+  j["instruction_set"] = fluidInstructionSet();
   j["fluid"] = fluidName(case_);
   j["steps"] = steps_;
   j["flaps"] = flaps();

@@ -1,0 +1,20 @@
+# A package runs on every x86-64 processor. The library of the flow is compiled again for newer ones, into
+# glibc-hwcaps/<level>/ beside it: the dynamic linker looks there first, and takes the best that it can run.
+include(CheckCXXCompilerFlag)
+set(FLUID_LEVELS)
+foreach(level v3 v4)
+  check_cxx_compiler_flag(-march=x86-64-${level} MONARCH_COMPILES_${level})
+  if(MONARCH_NATIVE OR NOT MONARCH_COMPILES_${level} OR NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+    continue()
+  endif()
+  get_target_property(sources monarch_fluid SOURCES)
+  add_library(monarch_fluid_${level} SHARED ${sources})
+  foreach(property INCLUDE_DIRECTORIES COMPILE_DEFINITIONS LINK_LIBRARIES LINK_OPTIONS)
+    get_target_property(value monarch_fluid ${property})
+    set_property(TARGET monarch_fluid_${level} PROPERTY ${property} ${value})
+  endforeach()
+  target_compile_options(monarch_fluid_${level} PRIVATE -march=x86-64-${level})
+  set_target_properties(monarch_fluid_${level} PROPERTIES OUTPUT_NAME monarch_fluid INSTALL_RPATH "$ORIGIN/../.."
+    LIBRARY_OUTPUT_DIRECTORY ${DEVEL_SPACE}/lib/glibc-hwcaps/x86-64-${level})
+  list(APPEND FLUID_LEVELS ${level})
+endforeach()
