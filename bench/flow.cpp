@@ -130,14 +130,15 @@ int main(int argc, char** argv) {
   Processes processes(&argc, &argv);
   const double cells = argc > 1 ? std::atof(argv[1]) : 0, most = 1e8;
   const int repeats = argc > 2 ? std::atoi(argv[2]) : 10;
-  if (!(cells >= 1e4 && cells <= most) || repeats < 1) {
-    std::cerr << "usage: bench_flow <cells, 1e4 to 1e8> [repeats, >= 1]\n";
+  const int threads = argc > 3 ? std::atoi(argv[3]) : 1;
+  if (!(cells >= 1e4 && cells <= most) || repeats < 1 || threads < 1) {
+    std::cerr << "usage: bench_flow <cells, 1e4 to 1e8> [repeats, >= 1] [threads, >= 1]\n";
     return 2;
   }
   const Subject subject;
   const double memory_before = peakBytes(), begin = cpuSeconds();
   NavierStokes flow(subject.grid(cells), subject.air(), subject.chord(), kCourantLimit,
-                    flowProcesses() > 1 ? MPI_COMM_WORLD : MPI_COMM_NULL);
+                    flowProcesses() > 1 ? MPI_COMM_WORLD : MPI_COMM_NULL, threads);
   const double setup = cpuSeconds() - begin;
   nlohmann::json result = measure(flow, subject, repeats);
   const Grid& g = flow.grid();
@@ -150,6 +151,7 @@ int main(int argc, char** argv) {
   result["size"] = {g.x.n(), g.y.n(), g.z.n()};
   result["wing_faces"] = std::count(g.wing.begin(), g.wing.end(), 1);
   result["ranks"] = processes.count();
+  result["threads"] = threads;
   result["setup_s"] = setup;
   result["bytes_per_cell"] =
       (peakBytes() - memory_before) * flow.slab().ranks() / static_cast<double>(flow.cells());

@@ -91,7 +91,8 @@ void dgemm(benchmark::State& state) {
   const int n = 768;
   Array a(n * n, 1.0), b(n * n, 2.0), c(n * n, 0.0);
   for (auto _ : state) {
-    fluid::pressure::product(CblasNoTrans, CblasNoTrans, n, n, n, 1.0, a.data(), n, b.data(), n, c.data(), n);
+    fluid::pressure::product(CblasNoTrans, CblasNoTrans, n, n, n, 1.0, a.data(), n, b.data(), n,
+                             c.data(), n);
     benchmark::ClobberMemory();
   }
   count(state, double(n) * n, 0, 2.0 * n);
@@ -145,9 +146,11 @@ void wingLoads(benchmark::State& state) {
   Fields& f = Fields::get();
   for (auto _ : state) {
     Loads l;
-    loads::pressureLoads(f.grid, f.layout, loads::WingPressure(f.grid, f.layout, f.p.data(), f.cells()), 1.2,
-                  f.wall, l);
-    loads::frictionLoads(f.grid, f.layout, f.momentum.metrics(), f.vn, f.cells(), 1.0, f.wall, 1e-5, l);
+    loads::pressureLoads(f.grid, f.layout,
+                         loads::WingPressure(f.grid, f.layout, f.p.data(), f.cells()), 1.2, f.wall,
+                         l);
+    loads::frictionLoads(f.grid, f.layout, f.momentum.metrics(), f.vn, f.cells(), 1.0, f.wall, 1e-5,
+                         l);
     benchmark::DoNotOptimize(l);
   }
   count(state, f.grid.cells(), 0, 0);

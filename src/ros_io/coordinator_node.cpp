@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/guidance/command_remarks.h"
 #include "monarch_flight/ros_io/conversions.h"
 #include "monarch_flight/ros_io/flight_control.h"
@@ -47,6 +48,7 @@ CoordinatorNode::CoordinatorNode(const StopFlag& stop)
       node_(names_.space()),
       token_(names_) {
   requireGuidancePlugin(case_);
+  setFlowThreads(parameters_.threads);  // of the plan
   run_.id = randomRunId();
   run_.limits = limitsFor(case_.watchdog_s);
   run_.stop = &stop_;

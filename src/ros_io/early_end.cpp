@@ -46,8 +46,10 @@ void EarlyEnd::refuse() {
   if (now < next_) return;
   next_ = now + kLook;
   const int code = exitCode(parameter_);
-  if (code == kExitInput) throw InputError(what_ + " has refused the run; the reason is its own message");
-  if (code >= 0) throw ExchangeError(what_ + " has ended before the flight; the reason is its own message");
+  if (code == kExitInput)
+    throw InputError(what_ + " has refused the run; the reason is its own message");
+  if (code >= 0)
+    throw ExchangeError(what_ + " has ended before the flight; the reason is its own message");
 }
 
 }  // namespace monarch_flight

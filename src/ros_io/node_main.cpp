@@ -154,6 +154,7 @@ int inProcessMain(int argc, char** argv) {
   if (processes.rank() > 0) return serveFlow(processes);
   return guarded("fly_in_process", [&] {
     const RunParameters parameters = runParameters(argc, argv);
+    setFlowThreads(parameters.threads);
     if (parameters.paused) throw InputError("paused = true: only a run of nodes can be held");
     const Case c = loadCase(parameters);
     requirePlugins(c);

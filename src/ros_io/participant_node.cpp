@@ -4,6 +4,7 @@
 #include <iostream>
 #include <random>
 
+#include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
 #include "monarch_flight/ros_io/token_file.h"
@@ -20,6 +21,7 @@ Case readCase(Role role, const RunNames& names) {
   Case c = loadCase(parameters);
   if (role == Role::kFluid || role == Role::kFluidLeft) {
     requireProcesses(parameters, c);
+    setFlowThreads(parameters.threads);
     requireFluidPlugin(c);
   }
   if (role == Role::kFluidLeft && c.mirrored)

@@ -62,6 +62,8 @@ void assign(const RunKey& key, const std::string& value, RunParameters& out) {
     out.paused = value == "true";
   } else if (key.name == "watchdog") {
     out.watchdog_s = std::strtod(value.c_str(), nullptr);
+  } else if (key.name == "threads") {
+    out.threads = static_cast<int>(std::strtod(value.c_str(), nullptr));
   } else if (key.name == "ranks") {
     out.ranks = static_cast<int>(std::strtod(value.c_str(), nullptr));
   } else if (key.name != "frame_prefix" && key.name != kTokenFileKey) {  // RunNames, TokenFile

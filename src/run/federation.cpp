@@ -59,7 +59,7 @@ std::unique_ptr<FluidModel> makeFluid(const Case& c, Side side) {
   const Planform& planform = c.insect.wings[side].planform;
   if (c.fluid == FluidKind::kPlugin) return fluidByPlugin(c, side);
   if (c.fluid == FluidKind::kQuasiSteady) return makeQuasiSteady(planform, c.air, c.blade_element);
-  return makeNavierStokes(planform, c.air, c.grid, c.watchdog_s);
+  return makeNavierStokes(planform, c.air, c.grid, c.watchdog_s, c.mirrored ? 1 : 2);
 }
 
 CoupledModel makeModel(const Case& c) {

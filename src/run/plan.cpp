@@ -8,6 +8,7 @@
 
 #include "monarch_flight/fluid/flow_cost.h"
 #include "monarch_flight/fluid/grid.h"
+#include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/wing_speeds.h"
 
@@ -92,7 +93,7 @@ void planSpeeds(const Case& c, RunPlan& plan) {
 }
 
 void planTime(const Case& c, long unknowns, RunPlan& plan) {
-  const FlowCost cost = measureFlowCost(c.insect.wings.right.planform, c.grid);
+  const FlowCost cost = measureFlowCost(c.insect.wings.right.planform, c.grid, plan.threads);
   const bool prescribed = c.free.count() == 0;
   plan.steps = c.time.steps;
   plan.evaluations = prescribed ? 1.0 : kEvaluationsFree;
@@ -137,6 +138,7 @@ RunPlan planRun(const Case& c, int ranks, int here) {
   RunPlan plan;
   plan.ranks = ranks;
   plan.ranks_here = here > 0 ? here : ranks;
+  plan.threads = flowThreads(plan.ranks_here, c.mirrored ? 1 : 2);
   planGrid(c, grid, plan);
   planSpeeds(c, plan);
   for (Side side : c.sides()) {
@@ -208,7 +210,8 @@ std::string describe(const RunPlan& p) {
   text << '\n'
        << "time: set-up " << timeText(p.setup_s) << ", " << p.steps << " steps of "
        << timeText(p.step_s) << " (" << p.evaluations << " evaluations of the air, " << p.ranks
-       << (p.ranks == 1 ? " process): " : " processes): ") << timeText(p.run_s())
+       << (p.ranks == 1 ? " process, " : " processes, ") << p.threads
+       << (p.threads == 1 ? " thread): " : " threads each): ") << timeText(p.run_s())
        << "; nodes and several processes need watchdog_s >= " << p.watchdogNeeded() << "\n";
   return text.str();
 }

@@ -1,4 +1,5 @@
-// Nodes that refuse their input before the flight: the others do not wait for them. Signals and plans at the start.
+// Nodes that refuse their input before the flight: the others do not wait for them. Signals and
+// plans at the start.
 #include <csignal>
 
 #include "ros/nodes_fixture.h"
@@ -39,8 +40,7 @@ TEST_F(EarlyEnds, OfASolverEndsTheRun) {
   startAll();
   EXPECT_EQ(2, fluid->wait(8.0)) << fluid->output();
   refused(*coordinator, "the fluid node");
-  for (Process* node : {flight.get(), wing.get()})
-    EXPECT_NE(-1, node->wait(8.0)) << node->output();
+  for (Process* node : {flight.get(), wing.get()}) EXPECT_NE(-1, node->wait(8.0)) << node->output();
 }
 
 TEST_F(Nodes, SignalsThatWereIgnoredAtTheStartStayIgnored) {
@@ -56,7 +56,8 @@ TEST_F(Nodes, SignalsThatWereIgnoredAtTheStartStayIgnored) {
 TEST_F(Nodes, APlanWithAnUnknownPluginIsRefused) {
   for (const char* key : {"guidance", "fluid"}) {
     Process plan(std::string(NODE_DIR) + "/fly_in_process",
-                 {"case:=climb_printed", "plan:=true", std::string(key) + ":=nobody/Nothing"}, folder / "plan.log");
+                 {"case:=climb_printed", "plan:=true", std::string(key) + ":=nobody/Nothing"},
+                 folder / "plan.log");
     EXPECT_EQ(2, plan.wait(10.0)) << plan.output();
     EXPECT_TRUE(contains(plan.output(), "nobody/Nothing")) << plan.output();
   }

@@ -1,4 +1,6 @@
 // Token files: who makes them, who may use them, what becomes of those that are left behind.
+#include "monarch_flight/ros_io/token_file.h"
+
 #include <gtest/gtest.h>
 #include <monarch_flight/Hello.h>
 
@@ -7,7 +9,6 @@
 #include <thread>
 
 #include "monarch_flight/math/errors.h"
-#include "monarch_flight/ros_io/token_file.h"
 #include "ros/nodes_fixture.h"
 
 namespace monarch_flight {

@@ -13,7 +13,7 @@ struct FlowCost {
 
 /// Measured by a few steps on a coarse grid around this wing, a fraction of a second: at 9 cells to
 /// a chord or at as many more as resolve it, at most those of `settings`, the grid of the run.
-FlowCost measureFlowCost(const Planform& planform, const GridSettings& settings);
+FlowCost measureFlowCost(const Planform& planform, const GridSettings& settings, int threads = 1);
 
 /// Bytes that the flow solver holds for a grid in `here` of its `processes`, those of one machine.
 double flowMemory(const Grid& grid, int processes, int here);

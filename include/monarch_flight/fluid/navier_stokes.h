@@ -11,6 +11,7 @@ namespace monarch_flight {
 /// fit. On several processes `watchdog_s` limits the waits of one for another (shared_flow.h) [s];
 /// 0: no limit.
 std::unique_ptr<FluidModel> makeNavierStokes(const Planform& planform, const Air& air,
-                                             const GridSettings& settings, double watchdog_s = 0.0);
+                                             const GridSettings& settings, double watchdog_s = 0.0,
+                                             int flows = 1);
 
 }  // namespace monarch_flight

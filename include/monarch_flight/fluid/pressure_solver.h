@@ -10,7 +10,7 @@ namespace monarch_flight {
 namespace fluid {
 class Slab;
 class Team;
-}
+}  // namespace fluid
 
 /// Direct solver of the Poisson equation on a Grid with a wing.
 ///
@@ -30,7 +30,8 @@ class PressureSolver {
   /// std::invalid_argument when the wing closes the whole plane of a closed box.
   explicit PressureSolver(const Grid& grid);
   /// On the processes of a slab, `solve` then sees the planes of this process
-  /// only, by a team of threads, and all processes call it alike; `apply` is for one process that owns all.
+  /// only, by a team of threads, and all processes call it alike; `apply` is for one process that
+  /// owns all.
   PressureSolver(const Grid& grid, const fluid::Slab& slab, const fluid::Team& team);
   ~PressureSolver();
   PressureSolver(const PressureSolver&) = delete;

@@ -23,6 +23,12 @@ class Processes {
   int rank_ = 0, count_ = 1;
 };
 
+/// Threads of each flow that is made in this process from now on; 0: all cores that it may use,
+/// shared with the flow's other processes here and with `flows` at a time. Results do not depend on
+/// it.
+void setFlowThreads(int threads);
+int flowThreads(int processes_here, int flows);
+
 /// Processes that makeNavierStokes will share its grid among.
 int flowProcesses();
 /// As many of them as share the memory of this machine, counted when `Processes` was made.

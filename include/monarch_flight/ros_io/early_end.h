@@ -10,7 +10,8 @@ namespace monarch_flight {
 /// patience is over.
 constexpr char kExitCodesKey[] = "exit_codes";
 
-/// This node ends by a failure. Tells nobody where the parameter is missing (nodes started by hand).
+/// This node ends by a failure. Tells nobody where the parameter is missing (nodes started by
+/// hand).
 void tellEarlyEnd(int exit_code);
 
 /// Another node of the run, while it is waited for.

@@ -23,6 +23,7 @@ struct RunPlan {
   double memory = 0.0, memory_left = 0.0;  ///< needed; available on this machine [bytes]
   int ranks = 1;                           ///< processes of the flow
   int ranks_here = 1;                      ///< of them on this machine
+  int threads = 1;                         ///< of each of them
   long steps = 0;
   double evaluations = 0.0;            ///< of the air in a step, expected
   double setup_s = 0.0, step_s = 0.0;  ///< expected wall time [s]

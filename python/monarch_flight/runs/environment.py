@@ -31,10 +31,10 @@ def sourced():
 
 
 def of_flight(base):
-    """One thread for BLAS; lines that come in order; and a decimal point in every program, whatever the language: rviz
+    """BLAS leaves threads to the flow solver; lines that come in order; and a decimal point in every program, whatever the language: rviz
     would take the person's for the numbers of the URDF."""
     return dict(base, PWD=os.getcwd(), LC_ALL="C.UTF-8", PYTHONUNBUFFERED="1",
-                OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+                OPENBLAS_NUM_THREADS="1")
 
 
 def of_processes(base):

@@ -19,8 +19,7 @@ void netOutflow(const Grid& grid, const Layout& l, const Team& team, const Veloc
       const double ax = hy * hz, ay = scale * hz;
 #pragma omp simd
       for (int i = 0; i < l.nx; ++i) {
-        o[i] = ax * (u[i + 1] - u[i]) +
-               hx[i] * (ay * (s[i + sy] - s[i]) + hy * (w[i + sz] - w[i]));
+        o[i] = ax * (u[i + 1] - u[i]) + hx[i] * (ay * (s[i + sy] - s[i]) + hy * (w[i + sz] - w[i]));
       }
     }
   });
@@ -51,8 +50,7 @@ void subtractGradient(const Grid& grid, const Layout& l, const Team& team, const
       const std::ptrdiff_t row = l.at(0, j, k);
       const double* q = phi + (k - l.k0) * pz + j * py;
       const auto mobility = [&](int c) { return grid.mobility.row(c, j, k); };
-      subtractDifference(1, l.nx, q, 1, scale, grid.x.gap.data(), mobility(0),
-                         v.c[0].data() + row);
+      subtractDifference(1, l.nx, q, 1, scale, grid.x.gap.data(), mobility(0), v.c[0].data() + row);
       if (j > 0) {
         subtractDifference(0, l.nx, q, py, scale / grid.y.gap[j], nullptr, mobility(1),
                            v.c[1].data() + row);

@@ -13,7 +13,8 @@ class Team {
   /// work throws nothing.
   template <class Work>
   void each(int begin, int end, Work work) const {
-    run(begin, end, [](void* w, int index, int thread) { (*static_cast<Work*>(w))(index, thread); },
+    run(
+        begin, end, [](void* w, int index, int thread) { (*static_cast<Work*>(w))(index, thread); },
         &work);
   }
 

@@ -38,8 +38,9 @@ Grid coarseGrid(const Planform& planform, const GridSettings& settings) {
 
 }  // namespace
 
-FlowCost measureFlowCost(const Planform& planform, const GridSettings& settings) {
-  fluid::NavierStokes flow(coarseGrid(planform, settings), Air(), planform.meanChord(), 1e9);
+FlowCost measureFlowCost(const Planform& planform, const GridSettings& settings, int threads) {
+  fluid::NavierStokes flow(coarseGrid(planform, settings), Air(), planform.meanChord(), 1e9,
+                           MPI_COMM_NULL, threads);
   WingMotion motion;
   motion.omega_W.x() = 1.0;  // the cost does not depend on the motion
   flow.start(motion, 1e-4);

@@ -168,8 +168,8 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   Loads loads;
   loads::pressureLoads(grid_, layout_, loads::WingPressure(grid_, layout_, p_.data(), phi()),
                        air_.rho, acceleration_, loads);
-  loads::frictionLoads(grid_, layout_, momentum_.metrics(), v_star_, phi(), step_.a / air_.rho, next_.wall,
-                       air_.mu, loads);
+  loads::frictionLoads(grid_, layout_, momentum_.metrics(), v_star_, phi(), step_.a / air_.rho,
+                       next_.wall, air_.mu, loads);
   loads::rimLoads(grid_, layout_, momentum_, convecting_, v_star_, air_.rho / step_.a, row_.data(),
                   loads);
   loads::sumLoads(slab_, loads);

@@ -8,15 +8,18 @@
 namespace monarch_flight {
 
 std::unique_ptr<FluidModel> makeNavierStokes(const Planform& planform, const Air& air,
-                                             const GridSettings& settings, double watchdog_s) {
-  fluid::pressure::takeBlasBuffers();  // before the grid is there
+                                             const GridSettings& settings, double watchdog_s,
+                                             int flows) {
+  const int threads = flowThreads(flowProcessesHere(), flows);
+  fluid::pressure::takeBlasBuffers(threads);  // before the grid is there
   Grid grid = makeGrid(planform, settings);
   const double chord = planform.meanChord();
   if (flowProcesses() > 1) {
     return std::make_unique<fluid::processes::SharedFlow>(grid, air, chord, settings.courant_limit,
-                                                          MPI_COMM_WORLD, watchdog_s);
+                                                          MPI_COMM_WORLD, watchdog_s, threads);
   }
-  return std::make_unique<fluid::NavierStokes>(std::move(grid), air, chord, settings.courant_limit);
+  return std::make_unique<fluid::NavierStokes>(std::move(grid), air, chord, settings.courant_limit,
+                                               MPI_COMM_NULL, threads);
 }
 
 }  // namespace monarch_flight

@@ -11,8 +11,8 @@ struct ZRow {
   const double* ahead;  ///< convecting velocity on the faces ahead
   std::ptrdiff_t sc;    ///< to the other velocity of such a face
   double inv_width, inv_dist;
-  double* behind;                          ///< stencil of the faces behind, then of those ahead
-  const double* side;                      ///< right side
+  double* behind;                            ///< stencil of the faces behind, then of those ahead
+  const double* side;                        ///< right side
   const double *side_before, *gamma_before;  ///< the row before, reduced
   double *gamma, *reduced;
 };
@@ -40,8 +40,8 @@ void eliminatePlain(const FaceStencil& stencil, const ZRow& row, int i0, int i1)
   }
 }
 
-/// The same beside the wing: `blocked` of the link ahead goes to the wall, whose velocity changes by
-/// change(i); inertia is 1 / mobility.
+/// The same beside the wing: `blocked` of the link ahead goes to the wall, whose velocity changes
+/// by change(i); inertia is 1 / mobility.
 template <int T, class Change>
 void eliminateBeside(const FaceStencil& stencil, const ZRow& r, int i0, int i1,
                      const double* blocked, const double* mobility, const WallLinks& links,
@@ -58,9 +58,8 @@ void eliminateBeside(const FaceStencil& stencil, const ZRow& r, int i0, int i1,
   }
 }
 
-void solveAndAdd(int i0, int i1, const double* gamma, const double* reduced,
-                 const double* level, double* solved,
-                 double* out) {
+void solveAndAdd(int i0, int i1, const double* gamma, const double* reduced, const double* level,
+                 double* solved, double* out) {
 #pragma omp simd
   for (int i = i0; i <= i1; ++i) {
     solved[i] = reduced[i] - gamma[i] * solved[i];

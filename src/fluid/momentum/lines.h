@@ -24,9 +24,9 @@ struct Lines {
   double* gamma;       ///< off-diagonal left after elimination, of the point (0, 0, 0)
   std::ptrdiff_t gamma_row, gamma_plane;  ///< its strides of j and k
   double* behind;                         ///< one plane: stencils of the faces behind a row
-  double* solved[2];    ///< one plane a half: the solution, as it goes outwards
-  const double* level;  ///< v^n
-  double* out;          ///< v*
+  double* solved[2];                      ///< one plane a half: the solution, as it goes outwards
+  const double* level;                    ///< v^n
+  double* out;                            ///< v*
 
   /// Of a half: its plane farthest from the wing, and that beside the wing, on this process.
   int outermost(int half) const { return half == 0 ? m.first(component, 2) : m.last(component, 2); }

@@ -1,5 +1,5 @@
-// The order of things; the right side is in right_side.cpp, the factors are solved in plane.cpp (x, y)
-// and lines.cpp (z).
+// The order of things; the right side is in right_side.cpp, the factors are solved in plane.cpp (x,
+// y) and lines.cpp (z).
 #include "fluid/momentum/momentum.h"
 
 #include <algorithm>

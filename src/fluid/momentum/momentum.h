@@ -32,7 +32,8 @@ class Momentum {
   const MomentumStep& step() const { return step_; }
 
  private:
-  Lines lines(const Velocity& vn, const Velocity& c, int component, double* reduced, Velocity& v_star);
+  Lines lines(const Velocity& vn, const Velocity& c, int component, double* reduced,
+              Velocity& v_star);
   LineRange block(int component, int index) const;
   static constexpr int kRowsZ = 4;  ///< rows of lines solved together: few enough for the cache
 
@@ -47,11 +48,11 @@ class Momentum {
   const Team& team_;
   MomentumStep step_{};
   bool first_ = true;  ///< `finish` was not called since `prepare`
-  Velocity delta_;     ///< after the x and y factors; of w also reduced, where one process has it all
-  Array wing_plane_;   ///< right side of w in the wing's plane, before any factor
-  std::vector<LineRange> seen_[2];  ///< of the blocks of u and v: the points that see the wall
-  std::vector<PlaneScratch> planes_;     ///< one a thread
-  std::vector<Array> gammas_;            ///< of a block of lines, one a thread
+  Velocity delta_;  ///< after the x and y factors; of w also reduced, where one process has it all
+  Array wing_plane_;                  ///< right side of w in the wing's plane, before any factor
+  std::vector<LineRange> seen_[2];    ///< of the blocks of u and v: the points that see the wall
+  std::vector<PlaneScratch> planes_;  ///< one a thread
+  std::vector<Array> gammas_;         ///< of a block of lines, one a thread
   Array gamma_field_;  ///< of all lines: of w; of any component where several processes share them
   Array behind_, solved_[2];  ///< planes, see Lines
 };

@@ -61,8 +61,8 @@ inline void transpose(Pack (&v)[kPack]) {
 #endif
 }
 
-/// Lines along x that are solved together, one in each lane of two packs: the divisions of one chain
-/// hide behind those of the other.
+/// Lines along x that are solved together, one in each lane of two packs: the divisions of one
+/// chain hide behind those of the other.
 constexpr int kLines = 2 * kPack;
 
 /// out[i * kLines + l] = rows[l * stride + i] for l < lines and i < n rounded up to a multiple of

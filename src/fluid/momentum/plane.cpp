@@ -6,8 +6,8 @@
 namespace monarch_flight::fluid::momentum {
 namespace {
 
-/// Thomas' algorithm along x for kLines neighbouring rows, one in each lane; off-diagonals are formed
-/// from the velocities through the faces on the way. All arrays are interleaved.
+/// Thomas' algorithm along x for kLines neighbouring rows, one in each lane; off-diagonals are
+/// formed from the velocities through the faces on the way. All arrays are interleaved.
 template <bool kMobile>
 void eliminateX(const FaceStencil& stencil, const Metrics::Direction& axis, int i0, int i1,
                 const double* sum, const double* mobility, double* __restrict gamma,
@@ -137,9 +137,9 @@ void byBlocks(const Metrics& m, int component, Fill fill, Solve solve) {
 RowFactors factorsOf(const Layout& l, int j, int n, PlaneScratch& s) {
   const std::ptrdiff_t at = n * l.sy + 8;
   const int here = j % 2, next = 1 - here;
-  return {s.x_sum.data() + at,       s.y_lower.data() + at,   s.y_upper.data() + at,
-          s.y_sum[here].data() + 8,  s.y_above[here].data() + 8,
-          s.y_sum[next].data() + 8,  s.y_above[next].data() + 8};
+  return {s.x_sum.data() + at,       s.y_lower.data() + at,      s.y_upper.data() + at,
+          s.y_sum[here].data() + 8,  s.y_above[here].data() + 8, s.y_sum[next].data() + 8,
+          s.y_above[next].data() + 8};
 }
 
 void firstFaces(const Metrics& m, const MomentumStep& step, const Velocity& c, int component, int k,

@@ -14,8 +14,8 @@ constexpr double kDissipation = 1.0 / 32;  ///< fourth difference, at Courant nu
 /// Pointers at the point (0, j, k) of a row, and the row's constants.
 struct Row {
   int i0, i1;
-  std::ptrdiff_t sc, sy, sz;  ///< strides: of the component's own direction, of y, of z
-  const double *v, *w;        ///< levels n and n-1
+  std::ptrdiff_t sc, sy, sz;   ///< strides: of the component's own direction, of y, of z
+  const double *v, *w;         ///< levels n and n-1
   const double *q, *q_before;  ///< pressure on both sides of the point
   const double *cx, *cy, *cz;  ///< convecting field
   const double *width, *distance, *fourth;  ///< along x, inverse
@@ -81,8 +81,7 @@ void form(const Row& r, const FaceStencil& stencil, double* d, const RowFactors&
     sum -= (quarter_z * z1 - nu_z1) * (v[i + sz] - here) -
            (quarter_z * z0 + nu_z0) * (v[i - sz] - here);
     const double limit_x = courant_x * fourth[i] * std::abs(C == 0 ? 2 * cx[i] : x0);
-    sum -= std::min(share, limit_x) *
-           (v[i + 2] + v[i - 2] - 4 * (v[i + 1] + v[i - 1]) + 6 * here);
+    sum -= std::min(share, limit_x) * (v[i + 2] + v[i - 2] - 4 * (v[i + 1] + v[i - 1]) + 6 * here);
     const double limit_y = courant_y * std::abs(C == 1 ? 2 * cy[i - sy] : y0);
     sum -= std::min(share, limit_y) *
            (v[i + 2 * sy] + v[i - 2 * sy] - 4 * (v[i + sy] + v[i - sy]) + 6 * here);
@@ -120,8 +119,8 @@ void addWallShear(const Metrics& m, const WallLinks& links, const WallVelocity& 
 
 }  // namespace
 
-void firstFacesY(const Metrics& m, const MomentumStep& step, const Velocity& c, int component, int j,
-                 int k, double* sum, double* above) {
+void firstFacesY(const Metrics& m, const MomentumStep& step, const Velocity& c, int component,
+                 int j, int k, double* sum, double* above) {
   const double* f = c.c[1].data() + m.layout.at(0, j, k);
   const std::ptrdiff_t sc = m.layout.stride(component);
   const double inv_dist = m.axis[component][1].inverse_distance[j];
@@ -179,10 +178,10 @@ void normalTransport(const Metrics& m, const MomentumStep& step, const Velocity&
       const std::ptrdiff_t s = m.layout.stride(d);
       const double* f = c.c[d].data() + at + i;
       const double* u = v.c[2].data() + at + i;
-      const double below = stencil.quarter_a * (f[0] + f[-sz]) +
-                           stencil.diffusion * axis.inverse_distance[q];
-      const double above = stencil.quarter_a * (f[s] + f[s - sz]) -
-                           stencil.diffusion * axis.inverse_distance[q + 1];
+      const double below =
+          stencil.quarter_a * (f[0] + f[-sz]) + stencil.diffusion * axis.inverse_distance[q];
+      const double above =
+          stencil.quarter_a * (f[s] + f[s - sz]) - stencil.diffusion * axis.inverse_distance[q + 1];
       out[i] += axis.inverse_width[q] * (above * (u[s] - u[0]) - below * (u[-s] - u[0]));
     }
   }

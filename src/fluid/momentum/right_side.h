@@ -16,8 +16,8 @@ struct ExplicitSide {
 
 /// What the row (j, k) of a component leaves for its implicit factors, all beginning at i = 0.
 struct RowFactors {
-  double* x_sum;          ///< twice the velocity through the lower faces along x; one more than points
-  double* y_lower;        ///< off-diagonals of a A_y
+  double* x_sum;    ///< twice the velocity through the lower faces along x; one more than points
+  double* y_lower;  ///< off-diagonals of a A_y
   double* y_upper;
   const double* y_sum;    ///< of the lower faces along y, from the row before
   const double* y_above;  ///< and their stencils
@@ -26,8 +26,8 @@ struct RowFactors {
 };
 
 /// The lower faces along y of row (j, k), for its first row in a plane.
-void firstFacesY(const Metrics& m, const MomentumStep& step, const Velocity& c, int component, int j,
-                 int k, double* sum, double* above);
+void firstFacesY(const Metrics& m, const MomentumStep& step, const Velocity& c, int component,
+                 int j, int k, double* sum, double* above);
 
 /// d = (v^n - v^(n-1)) / 3 - a (A v^n + grad p / rho) less the fourth differences, and the factors,
 /// of row (j, k) in one pass; off-diagonals along x are formed when they are solved (plane.cpp).

@@ -1,4 +1,5 @@
-// Lines along z that are cut by slabs: planes pass from process to process towards the wing and back.
+// Lines along z that are cut by slabs: planes pass from process to process towards the wing and
+// back.
 #include "fluid/momentum/momentum.h"
 
 namespace monarch_flight::fluid::momentum {

@@ -76,7 +76,7 @@ class PressureColumns {
   const Team team_;
   int nx_, ny_, nz_, k_wing_;
   std::vector<SpectrumBlock> blocks_;
-  std::vector<Row> rows_;  ///< of the spectrum: all modes b of y of all blocks
+  std::vector<Row> rows_;        ///< of the spectrum: all modes b of y of all blocks
   Eigen::ArrayXd width_, link_;  ///< cells; faces (1 / gap, 0 at a closed end)
   Eigen::ArrayXd reciprocal_;    ///< of the pivots, laid out as the spectrum
   /// Inverse of the 2 x 2 systems, and 1 - l g, as mode planes.

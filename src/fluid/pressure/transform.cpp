@@ -8,7 +8,7 @@ namespace monarch_flight::fluid::pressure {
 namespace {
 
 constexpr std::ptrdiff_t kBatchDoubles = 40000;  // 0.3 MB a buffer: two of them fit the L2 cache
-constexpr int kFewestBatches = 8;  // for threads; the same for any number of them
+constexpr int kFewestBatches = 8;                // for threads; the same for any number of them
 
 /// even[i] = row[i] + row[n-1-i], odd[i] = row[i] - row[n-1-i], i < m = n / 2.
 void foldRow(const double* row, int m, double* even, double* odd) {
@@ -80,7 +80,8 @@ PlaneTransform::PlaneTransform(const AxisModes& x, const AxisModes& y, int nz, c
 
 std::ptrdiff_t PlaneTransform::part(std::size_t class_x, std::size_t class_y, int planes) const {
   const std::ptrdiff_t mx = x_.classes()[0].m(), my = y_.classes()[0].m();
-  return (static_cast<std::ptrdiff_t>(class_x) * y_.n() + static_cast<std::ptrdiff_t>(class_y) * my) *
+  return (static_cast<std::ptrdiff_t>(class_x) * y_.n() +
+          static_cast<std::ptrdiff_t>(class_y) * my) *
          mx * planes;
 }
 
@@ -95,8 +96,8 @@ void PlaneTransform::fold(const double* field, int k0, int planes, Scratch& s) c
       const double* row = plane + static_cast<std::ptrdiff_t>(j) * nx;
       const double* mirror = plane + static_cast<std::ptrdiff_t>(ny - 1 - j) * nx;
       if (x_.split() && y_.split()) {
-        foldRowPair(row, mirror, mx, folded(0, 0) + at, folded(1, 0) + at,
-                    folded(0, 1) + at, folded(1, 1) + at);
+        foldRowPair(row, mirror, mx, folded(0, 0) + at, folded(1, 0) + at, folded(0, 1) + at,
+                    folded(1, 1) + at);
       } else if (x_.split()) {
         foldRow(row, mx, folded(0, 0) + at, folded(1, 0) + at);
       } else if (y_.split()) {
@@ -121,8 +122,8 @@ void PlaneTransform::unfold(double* field, int k0, int planes, Scratch& s) const
       double* row = plane + static_cast<std::ptrdiff_t>(j) * nx;
       double* mirror = plane + static_cast<std::ptrdiff_t>(ny - 1 - j) * nx;
       if (x_.split() && y_.split()) {
-        unfoldRowPair(folded(0, 0) + at, folded(1, 0) + at,
-                      folded(0, 1) + at, folded(1, 1) + at, mx, row, mirror);
+        unfoldRowPair(folded(0, 0) + at, folded(1, 0) + at, folded(0, 1) + at, folded(1, 1) + at,
+                      mx, row, mirror);
       } else if (x_.split()) {
         unfoldRow(folded(0, 0) + at, folded(1, 0) + at, mx, row);
       } else if (y_.split()) {

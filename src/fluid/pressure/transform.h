@@ -26,7 +26,8 @@ class PlaneTransform {
   void inverse(const double* spectrum, double* field) const;
 
  private:
-  /// Planes of a batch, laid out [class_x][class_y][j][plane][i]: folded by parity; half transformed.
+  /// Planes of a batch, laid out [class_x][class_y][j][plane][i]: folded by parity; half
+  /// transformed.
   struct Scratch {
     Eigen::VectorXd folded, halfway;
   };

@@ -1,7 +1,9 @@
 #include "monarch_flight/fluid/processes.h"
 
 #include <mpi.h>
+#include <omp.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -29,6 +31,7 @@ bool running() {
 }
 
 int processes_here = 1;
+int threads_wanted = 0;  // of each flow; 0: as many as there are cores
 
 }  // namespace
 
@@ -60,6 +63,13 @@ Processes::~Processes() {
 }
 
 void Processes::serveFlow() const { fluid::processes::SharedFlow::serve(MPI_COMM_WORLD); }
+
+void setFlowThreads(int threads) { threads_wanted = threads; }
+
+int flowThreads(int processes_here_now, int flows) {
+  if (threads_wanted > 0) return threads_wanted;
+  return std::max(1, omp_get_max_threads() / (processes_here_now * flows));
+}
 
 int flowProcessesHere() { return processes_here; }
 

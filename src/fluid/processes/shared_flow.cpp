@@ -115,8 +115,9 @@ void endAll(MPI_Comm comm, const std::string& why) {
 }
 
 std::unique_ptr<NavierStokes> make(MPI_Comm comm, double watchdog_s, Grid grid, Air air,
-                                   double length, double limit) {
-  pressure::takeBlasBuffers();  // before the grid is there
+                                   double length, double limit, int threads) {
+  share(comm, threads);
+  pressure::takeBlasBuffers(threads);  // before the grid is there
   share(comm, watchdog_s);
   PeerWatch::limit(kWaitByWatchdog * watchdog_s);
   share(comm, grid.x.face);
@@ -130,13 +131,13 @@ std::unique_ptr<NavierStokes> make(MPI_Comm comm, double watchdog_s, Grid grid, 
   share(comm, limit);
   Grid whole = makeGrid(Axis::fromFaces(grid.x.face), Axis::fromFaces(grid.y.face),
                         Axis::fromFaces(grid.z.face), grid.k_wing, grid.open, grid.wing);
-  return std::make_unique<NavierStokes>(std::move(whole), air, length, limit, comm);
+  return std::make_unique<NavierStokes>(std::move(whole), air, length, limit, comm, threads);
 }
 
 }  // namespace
 
 SharedFlow::SharedFlow(const Grid& grid, const Air& air, double reference_length,
-                       double courant_limit, MPI_Comm comm, double watchdog_s)
+                       double courant_limit, MPI_Comm comm, double watchdog_s, int threads)
     : comm_(comm) {
   give(comm_, Order::kMake);
   flow_ = here([&] { return make(comm_, watchdog_s, grid, air, reference_length, courant_limit); });

@@ -16,7 +16,7 @@ class SharedFlow : public FluidModel {
   /// process for another may take four fifths (ten times that where the exchange may take ten times
   /// as long: set-up, save, restore, the whole field); 0: waits have no limit.
   SharedFlow(const Grid& grid, const Air& air, double reference_length, double courant_limit,
-             MPI_Comm comm, double watchdog_s = 0.0);
+             MPI_Comm comm, double watchdog_s = 0.0, int threads = 1);
 
   void start(const WingMotion& motion, double dt) override;
   Loads evaluate(const WingMotion& next) override;

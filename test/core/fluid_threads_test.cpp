@@ -1,0 +1,85 @@
+// What a flow computes does not depend on how many threads compute it.
+#include <gtest/gtest.h>
+
+#include "fluid/flow/flow.h"
+
+namespace monarch_flight::fluid {
+namespace {
+
+using Eigen::Vector3d;
+
+WingMotion flapping(double t) {
+  WingMotion m;
+  m.v_W = Vector3d(0.6, 0.05, 0.2 + 0.3 * t);
+  m.a_W = Vector3d(0, 0, 0.3);
+  m.omega_W = Vector3d(4 + 20 * t, -3 * t, 1);
+  m.alpha_W = Vector3d(20, -3, 0);
+  return m;
+}
+
+struct Flown {
+  std::vector<Loads> loads;
+  std::vector<char> state;
+};
+
+Flown flown(int threads, bool open) {
+  GridSettings s = GridSettings::preset("preview");
+  s.level = "custom";
+  s.cells_per_chord = 8;
+  s.first_cell = 0.06;
+  s.far_field = 4;
+  Grid grid = makeGrid(Planform::rectangle(0.02, 0.05, 0.25), s);
+  grid.open = open;
+  const Air air;
+  NavierStokes flow(grid, air, 0.02, 10.0, MPI_COMM_NULL, threads);
+  constexpr double kDt = 2e-4;
+  flow.start(flapping(0), kDt);
+  Flown result;
+  for (int n = 1; n <= 4; ++n) {
+    result.loads.push_back(flow.evaluate(flapping((n + 0.2) * kDt)));
+    result.loads.push_back(flow.evaluate(flapping(n * kDt)));
+    flow.commit();
+  }
+  result.state = flow.save();
+  return result;
+}
+
+class Threads : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Threads, GiveTheSameBits) {
+  const Flown alone = flown(1, GetParam());
+  for (int threads : {2, 3, 4}) {
+    const Flown together = flown(threads, GetParam());
+    for (std::size_t n = 0; n < alone.loads.size(); ++n) {
+      EXPECT_EQ(alone.loads[n].force(), together.loads[n].force()) << threads;
+      EXPECT_EQ(alone.loads[n].moment(), together.loads[n].moment()) << threads;
+    }
+    EXPECT_TRUE(alone.state == together.state) << threads;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(ClosedAndOpen, Threads, ::testing::Bool());
+
+/// Lines that do not see the wall are not solved again within a step: as if all were.
+TEST(RepeatedEvaluation, IsTheFirstOne) {
+  const Flown alone = flown(1, false);
+  GridSettings s = GridSettings::preset("preview");
+  s.level = "custom";
+  s.cells_per_chord = 8;
+  s.first_cell = 0.06;
+  s.far_field = 4;
+  const Air air;
+  NavierStokes flow(makeGrid(Planform::rectangle(0.02, 0.05, 0.25), s), air, 0.02, 10.0);
+  constexpr double kDt = 2e-4;
+  flow.start(flapping(0), kDt);
+  for (int n = 1; n <= 4; ++n) {
+    const Loads loads = flow.evaluate(flapping(n * kDt));
+    EXPECT_EQ(loads.force(), alone.loads[2 * n - 1].force());
+    EXPECT_EQ(loads.moment(), alone.loads[2 * n - 1].moment());
+    flow.commit();
+  }
+  EXPECT_TRUE(flow.save() == alone.state);
+}
+
+}  // namespace
+}  // namespace monarch_flight::fluid
