@@ -75,9 +75,10 @@ class AitkenRelaxation : public Accelerator {
 };
 
 /// Interface quasi-Newton with the inverse Jacobian from least squares (Degroote et al. 2009), with
-/// the differences of earlier steps used again: d^{k+1} = d^k + r^k + W alpha, where alpha minimises
-/// |V alpha + r^k|, V and W holding differences of residuals and of answers, the newest first; those
-/// that add nothing new to V are left out. Without any difference: relaxation by omega_initial.
+/// the differences of earlier steps used again: d^{k+1} = d^k + r^k + W alpha, where alpha
+/// minimises |V alpha + r^k|, V and W holding differences of residuals and of answers, the newest
+/// first; those that add nothing new to V are left out. Without any difference: relaxation by
+/// omega_initial.
 class IqnIls : public Accelerator {
  public:
   /// `reuse`: earlier steps whose differences are kept, 0 to kMaxReuse.

@@ -10,17 +10,17 @@
 namespace monarch_flight {
 
 /// Constant model that the solvers and the coordinator share. Built as
-/// `CoupledModel model{insect}` and then filled; all of them keep a copy. It holds no motion: what is
-/// prescribed comes with every request, from guidance (guidance.h).
+/// `CoupledModel model{insect}` and then filled; all of them keep a copy. It holds no motion: what
+/// is prescribed comes with every request, from guidance (guidance.h).
 struct CoupledModel {
   Insect insect;
   /// The air of the right wing is solved, the left wing is its mirror image; else that of both.
   bool mirrored = true;
   FreeCoordinates free = {};
-  Newmark newmark = {};      ///< with the time step of the whole run
-  double gravity = 9.81;     ///< along +z of NED [m/s^2]
-  double t_start = 0.0;      ///< time of step 0 [s]
-  std::uint32_t steps = 0;   ///< of the whole run
+  Newmark newmark = {};     ///< with the time step of the whole run
+  double gravity = 9.81;    ///< along +z of NED [m/s^2]
+  double t_start = 0.0;     ///< time of step 0 [s]
+  std::uint32_t steps = 0;  ///< of the whole run
   /// First free step, which a released insect flies at constant acceleration: what the prescribed
   /// motion did before does not belong to its flight. 0: the motion's accelerations do.
   std::uint32_t release = 0;

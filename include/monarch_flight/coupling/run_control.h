@@ -11,13 +11,14 @@ class RunControl {
  public:
   enum class Order {
     kGoOn,
-    kStop,  ///< end the run; the last committed step stays good
+    kStop,       ///< end the run; the last committed step stays good
     kReset,      ///< back to level 0; everything flown so far is void
     kCheckpoint  ///< keep the last committed step, then ask again
   };
   virtual ~RunControl() = default;
   /// Steps before `step` are committed, `iteration` is the number of the sub-iteration that comes
-  /// next. May wait as long as the leader likes; throws ExchangeError when a node is lost meanwhile.
+  /// next. May wait as long as the leader likes; throws ExchangeError when a node is lost
+  /// meanwhile.
   virtual Order next(std::uint32_t step, std::uint32_t iteration) = 0;
 };
 

@@ -86,7 +86,7 @@ struct CommittedStep {
   PerWing<std::vector<VortexPoint>> vortices;      ///< empty unless fields were due
   PerWing<std::shared_ptr<const FlowField>> flow;  ///< null unless it was due and there is one
   std::array<double, kRoles> wall_s{};             ///< computing time by role in this step
-  IgnoredMessages ignored;  ///< of all participants since the run began
+  IgnoredMessages ignored;                         ///< of all participants since the run began
   double exchange_s = 0.0;  ///< wall time of the step's exchanges beyond that: messages and waiting
   double coupling_s = 0.0;  ///< wall time of the coordinator's own computing in this step
   double outputs_s = 0.0;   ///< wall time that the sinks took for all steps before this one

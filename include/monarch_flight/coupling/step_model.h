@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "monarch_flight/coupling/model.h"
-#include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/flight/flight_solver.h"
+#include "monarch_flight/fluid/fluid_model.h"
 #include "monarch_flight/insect/prescribed_motion.h"
 #include "monarch_flight/math/eigen.h"
 #include "monarch_flight/wing/wing_pitch_solver.h"

@@ -27,10 +27,10 @@ class CommandInbox {
   std::optional<Posted> newest_;
 };
 
-/// Leads the wingbeat by what arrives in an inbox: a person's commands, or a node's. A start empties
-/// the box, so that a run that is set back is not led by what was meant for the one before. A run
-/// that goes on from a checkpoint knows the command that waits for the next flap, but not one that
-/// came within the step that was not committed.
+/// Leads the wingbeat by what arrives in an inbox: a person's commands, or a node's. A start
+/// empties the box, so that a run that is set back is not led by what was meant for the one before.
+/// A run that goes on from a checkpoint knows the command that waits for the next flap, but not one
+/// that came within the step that was not committed.
 class PostedCommands : public CommandSource {
  public:
   explicit PostedCommands(std::shared_ptr<CommandInbox> inbox) : inbox_(std::move(inbox)) {}

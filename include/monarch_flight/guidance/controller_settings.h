@@ -57,9 +57,9 @@ class TrimTable {
 
 /// From this flap on the flight shall have this mean velocity over ground.
 struct SetPoint {
-  double flap = 0.0;                 ///< on the phase clock
-  double speed = 0.0;                ///< [m/s]
-  double climb = 0.0;                ///< up from the horizontal [rad]
+  double flap = 0.0;   ///< on the phase clock
+  double speed = 0.0;  ///< [m/s]
+  double climb = 0.0;  ///< up from the horizontal [rad]
   /// Whole turns included [rad]; nothing: as before, at first that of the start.
   std::optional<double> heading = std::nullopt;
   Eigen::Vector2d velocity() const;  ///< x and z of NED [m/s]
@@ -78,14 +78,14 @@ struct LateralSettings {
 
 /// A law for one insect, its motion and its filters (docs/guidance.md).
 struct ControllerSettings {
-  int samples = 0;                  ///< N of the law a flap
-  double time_constant = 0.0;       ///< of the commands' filters that the gains belong to [flaps]
-  bool wing_pitch = true;           ///< theta_R and its rate are fed back
+  int samples = 0;             ///< N of the law a flap
+  double time_constant = 0.0;  ///< of the commands' filters that the gains belong to [flaps]
+  bool wing_pitch = true;      ///< theta_R and its rate are fed back
   TrimTable table;
   FeedbackGains gains;  ///< integrals: of the velocity forward and down [m/s flaps]
   std::optional<LateralSettings> lateral;  ///< nothing: heading, roll and side-slip are left alone
-  std::vector<SetPoint> set_points;  ///< by flap; the first one holds from the start
-  double slew = 0.0;                 ///< of the set point [m/s a flap]
+  std::vector<SetPoint> set_points;        ///< by flap; the first one holds from the start
+  double slew = 0.0;                       ///< of the set point [m/s a flap]
   /// Lost: body pitch (or roll, with a lateral law) is further off its reference than this [rad],
   /// or an input has been limited for so many flaps on end.
   double lost_pitch = 0.0, lost_flaps = 0.0;

@@ -10,10 +10,11 @@ namespace monarch_flight {
 
 /// A rigid appendage on a joint of the body.
 struct Appendage {
-  double m = 0.0;                                  ///< mass [kg]
-  Eigen::Vector3d nu = Eigen::Vector3d::Zero();    ///< mass centre from the joint, own axes [m]
-  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();     ///< inertia about the joint, own axes [kg m^2]
-  Eigen::Vector3d mu = Eigen::Vector3d::Zero();    ///< joint in body axes F_B, from the body's mass centre [m]
+  double m = 0.0;                                ///< mass [kg]
+  Eigen::Vector3d nu = Eigen::Vector3d::Zero();  ///< mass centre from the joint, own axes [m]
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();   ///< inertia about the joint, own axes [kg m^2]
+  Eigen::Vector3d mu =
+      Eigen::Vector3d::Zero();  ///< joint in body axes F_B, from the body's mass centre [m]
 };
 
 /// A wing with its hinge; the left one as its mirror image (state.h).
@@ -27,9 +28,10 @@ struct Wing {
 /// Constant model of the insect (or of a bare wing: massless body and abdomen, one wing).
 struct Insect {
   std::string name;
-  bool bare_wing = false;  ///< true: one wing, no body or abdomen; nothing but wing pitch may be free
-  double m_B = 0.0;        ///< body (thorax and head) [kg]
-  Eigen::Matrix3d J_B = Eigen::Matrix3d::Zero();  ///< about the body's mass centre [kg m^2]
+  bool bare_wing =
+      false;         ///< true: one wing, no body or abdomen; nothing but wing pitch may be free
+  double m_B = 0.0;  ///< body (thorax and head) [kg]
+  Eigen::Matrix3d J_B = Eigen::Matrix3d::Zero();     ///< about the body's mass centre [kg m^2]
   double body_length = 0.0, body_width = 0.0;        ///< cylinder, for pictures and inertia [m]
   double abdomen_length = 0.0, abdomen_width = 0.0;  ///< [m]
   Appendage abdomen;

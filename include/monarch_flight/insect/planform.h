@@ -11,27 +11,29 @@ namespace monarch_flight {
 class Planform {
  public:
   /// `leading(y) >= trailing(y)` for y in [y_root, y_tip]; `breaks` are interior stations where the
-  /// edges are not smooth (quadrature is split there). Throws std::invalid_argument naming the fault
-  /// (zero span, crossed edges, zero area, a gap without a chord between root and tip).
+  /// edges are not smooth (quadrature is split there). Throws std::invalid_argument naming the
+  /// fault (zero span, crossed edges, zero area, a gap without a chord between root and tip).
   Planform(std::function<double(double)> leading, std::function<double(double)> trailing,
            double y_root, double y_tip, std::vector<double> breaks = {});
 
   // These throw std::invalid_argument for lengths that are not > 0, stations that do not increase,
   // are too few or unequally many, and for whatever the constructor refuses.
-  /// Rectangle of chord c, span b, hinge at `hinge` chords behind the leading edge, root edge at y = y_root.
+  /// Rectangle of chord c, span b, hinge at `hinge` chords behind the leading edge, root edge at y
+  /// = y_root.
   static Planform rectangle(double chord, double span, double hinge, double y_root = 0.0);
   /// Ellipse with full axes `chord` (x) and `span` (y), its root end at y = y_root, hinge as above.
   static Planform ellipse(double chord, double span, double hinge, double y_root = 0.0);
   /// Piecewise linear edges through stations; `y` strictly increasing.
   static Planform table(const std::vector<double>& y, const std::vector<double>& leading,
                         const std::vector<double>& trailing);
-  /// Least-squares polynomials (default 6th order) through the stations, clamped so that chord >= 0.
-  /// Refused, too: an order above 2 sqrt(stations), edges that cross by more than 0.05 mean chords,
-  /// or anywhere but towards root and tip, or miss the stations by more than 0.1 (rms).
+  /// Least-squares polynomials (default 6th order) through the stations, clamped so that chord >=
+  /// 0. Refused, too: an order above 2 sqrt(stations), edges that cross by more than 0.05 mean
+  /// chords, or anywhere but towards root and tip, or miss the stations by more than 0.1 (rms).
   static Planform polynomial(const std::vector<double>& y, const std::vector<double>& leading,
                              const std::vector<double>& trailing, int order = 6);
 
-  /// Scaled so that span (y_tip - y_root) and area take these values: y by one factor, x by another.
+  /// Scaled so that span (y_tip - y_root) and area take these values: y by one factor, x by
+  /// another.
   Planform scaledTo(double span, double area) const;
 
   /// Without its tip: cut off along x so far from the root that `share` of the area is lost, in
@@ -53,7 +55,8 @@ class Planform {
   double meanChord() const { return area_ / span(); }
   /// Integral of x^px y^py over the outline [m^(2+px+py)], to quadrature precision (rel. 1e-10).
   double moment(int px, int py) const;
-  /// Integral of f(y, leading(y), trailing(y)) dy over the span, Gauss-Legendre split at the breaks.
+  /// Integral of f(y, leading(y), trailing(y)) dy over the span, Gauss-Legendre split at the
+  /// breaks.
   double integrateSpan(const std::function<double(double, double, double)>& f) const;
 
  private:

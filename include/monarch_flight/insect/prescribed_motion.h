@@ -40,8 +40,8 @@ struct PrescribedState {
   }
 };
 
-/// Motion as a function of time, with consistent first and second derivatives. Immutable, thread-safe.
-/// Concrete: FourierMotion, TableMotion (fourier_motion.h, table_motion.h).
+/// Motion as a function of time, with consistent first and second derivatives. Immutable,
+/// thread-safe. Concrete: FourierMotion, TableMotion (fourier_motion.h, table_motion.h).
 class PrescribedMotion {
  public:
   virtual ~PrescribedMotion() = default;

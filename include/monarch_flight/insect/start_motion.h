@@ -8,8 +8,8 @@ namespace monarch_flight {
 
 /// Explicit start of one coordinate: it follows q0 + qd0 s + qdd0 s^2/2, s = t - t_start.
 struct StartValue {
-  double q0 = 0.0;   ///< [m] or [rad]
-  double qd0 = 0.0;  ///< [m/s] or [rad/s]
+  double q0 = 0.0;    ///< [m] or [rad]
+  double qd0 = 0.0;   ///< [m/s] or [rad/s]
   double qdd0 = 0.0;  ///< [m/s^2] or [rad/s^2]
   Coordinate at(double elapsed) const {
     return {q0 + elapsed * (qd0 + 0.5 * qdd0 * elapsed), qd0 + qdd0 * elapsed, qdd0};

@@ -8,7 +8,8 @@
 
 namespace monarch_flight {
 
-/// One generalised coordinate with its first and second time derivatives (m or rad, per s, per s^2).
+/// One generalised coordinate with its first and second time derivatives (m or rad, per s, per
+/// s^2).
 struct Coordinate {
   double q = 0.0;
   double qd = 0.0;
@@ -42,13 +43,15 @@ struct PerWing {
 /// Omega_B = pitch.qd e2. In any other attitude `pitch` is the pitch angle asin(-R_IB(2,0))
 /// (setPitchAngle).
 struct BodyState {
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();            ///< position of the body's mass centre, F_I [m]
-  Eigen::Vector3d v = Eigen::Vector3d::Zero();            ///< velocity, F_I [m/s]
-  Eigen::Vector3d a = Eigen::Vector3d::Zero();            ///< acceleration, F_I [m/s^2]
-  Quaternion q_IB = Quaternion::Identity();               ///< attitude: unit quaternion of R_IB
-  Eigen::Vector3d Omega_B = Eigen::Vector3d::Zero();      ///< angular velocity of B in I, body axes [rad/s]
-  Eigen::Vector3d Omega_dot_B = Eigen::Vector3d::Zero();  ///< its time derivative, body axes [rad/s^2]
-  Coordinate pitch;                                       ///< theta_B [rad]
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< position of the body's mass centre, F_I [m]
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< velocity, F_I [m/s]
+  Eigen::Vector3d a = Eigen::Vector3d::Zero();  ///< acceleration, F_I [m/s^2]
+  Quaternion q_IB = Quaternion::Identity();     ///< attitude: unit quaternion of R_IB
+  Eigen::Vector3d Omega_B =
+      Eigen::Vector3d::Zero();  ///< angular velocity of B in I, body axes [rad/s]
+  Eigen::Vector3d Omega_dot_B =
+      Eigen::Vector3d::Zero();  ///< its time derivative, body axes [rad/s^2]
+  Coordinate pitch;             ///< theta_B [rad]
   /// Takes body components to inertial ones.
   Eigen::Matrix3d R_IB() const { return rotationOf(q_IB); }
 };
@@ -90,12 +93,13 @@ struct Interface {
 /// Rigid motion of a (right) wing's axes: all that a flow solver needs to know of the insect.
 /// Velocities and accelerations are absolute (relative to F_I), resolved in wing axes F_R.
 struct WingMotion {
-  Eigen::Vector3d r_I = Eigen::Vector3d::Zero();         ///< wing root, F_I [m]
-  Eigen::Matrix3d R_IW = Eigen::Matrix3d::Identity();    ///< takes wing components to inertial ones
-  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();         ///< velocity of the root [m/s]
-  Eigen::Vector3d omega_W = Eigen::Vector3d::Zero();     ///< angular velocity [rad/s]
-  Eigen::Vector3d a_W = Eigen::Vector3d::Zero();         ///< R_IW^T d2(r_I)/dt2 [m/s^2]
-  Eigen::Vector3d alpha_W = Eigen::Vector3d::Zero();     ///< d(omega_W)/dt, component-wise in F_R [rad/s^2]
+  Eigen::Vector3d r_I = Eigen::Vector3d::Zero();       ///< wing root, F_I [m]
+  Eigen::Matrix3d R_IW = Eigen::Matrix3d::Identity();  ///< takes wing components to inertial ones
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();       ///< velocity of the root [m/s]
+  Eigen::Vector3d omega_W = Eigen::Vector3d::Zero();   ///< angular velocity [rad/s]
+  Eigen::Vector3d a_W = Eigen::Vector3d::Zero();       ///< R_IW^T d2(r_I)/dt2 [m/s^2]
+  Eigen::Vector3d alpha_W =
+      Eigen::Vector3d::Zero();  ///< d(omega_W)/dt, component-wise in F_R [rad/s^2]
 };
 
 /// Air loads on one wing in wing axes, moments about the wing root [N, N m].

@@ -77,8 +77,8 @@ struct GuidanceReport {
   WingbeatChange applied;  ///< what the wings fly: the filters' values
   double phase = 0.0;      ///< flaps since t = 0, whole and part
   unsigned clipped = 0;    ///< commands cut to their bounds since the run began
-  unsigned refused = 0;  ///< commands not taken at all, not being finite, since then
-  bool lost = false;     ///< whoever leads has given up (docs/guidance.md)
+  unsigned refused = 0;    ///< commands not taken at all, not being finite, since then
+  bool lost = false;       ///< whoever leads has given up (docs/guidance.md)
 };
 
 }  // namespace monarch_flight

@@ -36,8 +36,8 @@ class BagOutput : public MessageOutput {
   void put(const std::string& topic, const ros::Time& stamp, const Message& content, bool latched);
 
   std::string path_;
-  std::uint64_t messages_ = 0;  // written
-  std::uint64_t resumed_ = 0;   // of them before the resumption
+  std::uint64_t messages_ = 0;        // written
+  std::uint64_t resumed_ = 0;         // of them before the resumption
   std::unique_ptr<rosbag::Bag> bag_;  // none before open() and after a failure
 };
 

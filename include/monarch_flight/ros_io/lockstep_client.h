@@ -75,8 +75,8 @@ class RosParticipant : public Participant {
   WatchedPublisher<Hello> hello_out_;
   WatchedPublisher<ParticipantRequest> requests_;
   ros::Subscriber hello_in_, replies_;
-  HelloConstPtr answer_;            // of this run
-  ParticipantRequest pending_;      // what is, or was last, waited for
+  HelloConstPtr answer_;        // of this run
+  ParticipantRequest pending_;  // what is, or was last, waited for
   ros::SteadyTime asked_;
   ParticipantReplyConstPtr reply_;  // to pending_
 };

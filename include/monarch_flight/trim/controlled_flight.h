@@ -26,8 +26,8 @@ struct ControlledFlap {
   double turn = 0.0;                       ///< change of the heading [rad]
   double side_velocity = 0.0;              ///< mean, to the right of the heading, over ground [m/s]
   double roll_low = 0.0, roll_high = 0.0;  ///< [rad]
-  WingbeatChange command_low, command_high;                          ///< taken
-  bool limited = false;                                              ///< a command was cut in it
+  WingbeatChange command_low, command_high;  ///< taken
+  bool limited = false;                      ///< a command was cut in it
 };
 
 struct ControlledFlight {

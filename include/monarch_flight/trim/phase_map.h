@@ -28,10 +28,10 @@ struct SideMotion {
 struct PhaseFlight {
   bool complete = false;
   std::string failure;
-  std::vector<FlapState> states;                       ///< at every sample, the start first
-  std::vector<FlapState> rates;                        ///< their time derivatives
-  std::vector<double> headings;  ///< at every sample, against the start's [rad]
-  WingbeatStart wingbeat;                              ///< at the end
+  std::vector<FlapState> states;  ///< at every sample, the start first
+  std::vector<FlapState> rates;   ///< their time derivatives
+  std::vector<double> headings;   ///< at every sample, against the start's [rad]
+  WingbeatStart wingbeat;         ///< at the end
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< mean, x and z of NED [m/s]
   SideMotion sideways;
 };

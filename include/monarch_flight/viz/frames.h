@@ -18,15 +18,15 @@ constexpr char kWorld[] = "world";         ///< ENU
 constexpr char kWorldNed[] = "world_ned";  ///< F_I: x north, y east, z down, same origin
 constexpr char kBaseLink[] = "base_link";  ///< at the body's mass centre
 constexpr char kBodyFrd[] = "body_frd";    ///< F_B: the same point, x forward, y right, z down
-constexpr char kStrokePlane[] = "stroke_plane";  ///< F_S: F_B turned by beta about y
+constexpr char kStrokePlane[] = "stroke_plane";             ///< F_S: F_B turned by beta about y
 constexpr char kRightFlapping[] = "right_wing_flapping";    ///< F_S turned by flapping
 constexpr char kRightDeviation[] = "right_wing_deviation";  ///< and by deviation
 constexpr char kRightWing[] = "right_wing";  ///< F_R, at the wing's root: and by pitch
 constexpr char kLeftFlapping[] = "left_wing_flapping";
 constexpr char kLeftDeviation[] = "left_wing_deviation";
-constexpr char kLeftWing[] = "left_wing";        ///< F_L, at the wing's root
-constexpr char kAbdomen[] = "abdomen";           ///< F_A, at its joint
-constexpr char kLegend[] = "pressure_legend";    ///< at base_link, turned as world; only for rviz
+constexpr char kLeftWing[] = "left_wing";      ///< F_L, at the wing's root
+constexpr char kAbdomen[] = "abdomen";         ///< F_A, at its joint
+constexpr char kLegend[] = "pressure_legend";  ///< at base_link, turned as world; only for rviz
 }  // namespace frames
 
 /// Takes NED components to ENU components (its own inverse).

@@ -1,15 +1,15 @@
 """Measures speed, stage by stage: steps (whole steps of the flow solver on four grids), kernels (beside triad and
-dgemm), ranks (two processes against one), coupling (exchanges over topics), and beside peers: hypre, openfoam
+dgemm), threads and ranks (two threads, two processes against one), coupling (exchanges over topics), and beside peers: hypre, openfoam
 (docs/performance.md).
 
 A peer is installed with apt when it is asked for. CPU times of one core; the quieter the machine, the better they
-repeat. Without a stage: steps, kernels, ranks, and the peers given."""
+repeat. Without a stage: steps, kernels, threads, ranks, and the peers given."""
 import os
 
 from monarch_flight import keys, preparing
 from monarch_flight.keys import Key, Table
 
-STAGES = ("steps", "kernels", "ranks", "coupling", "hypre", "openfoam")
+STAGES = ("steps", "kernels", "threads", "ranks", "coupling", "hypre", "openfoam")
 PEERS = ("hypre", "openfoam")
 KEYS = Table([Key("out", "path", "folder of bench.json", default="bench_results")])
 
@@ -21,6 +21,8 @@ def add_arguments(parser):
     parser.add_argument("--repeats", type=int, default=10, help="steps that are measured (10)")
     parser.add_argument("--rounds", type=int, default=3, help="of four steps each, beside OpenFOAM (3)")
     parser.add_argument("--cells", type=float, default=0.65e6, help="of the comparison with OpenFOAM (0.65e6)")
+    parser.add_argument("--document", metavar="FILE",
+                        help="measure nothing; put the figures of bench.json into this document (docs/performance.md)")
     parser.epilog = KEYS.help()
 
 
@@ -30,8 +32,19 @@ def run(arguments):
                for name in stages if name not in STAGES]
     if faults:
         raise keys.Refused(*faults)
-    stages = (stages or ["steps", "kernels", "ranks"]) + arguments.peer
+    if arguments.document:
+        return document(arguments.document, values.get("out", "bench_results"))
+    stages = (stages or ["steps", "kernels", "threads", "ranks"]) + arguments.peer
     root = preparing.source_only("bench")
     preparing.installed("fly", "bench", *(name for name in PEERS if name in stages))
     from monarch_flight.trials import bench
     return bench.measure(stages, os.path.abspath(values.get("out", root / "bench_results")), arguments)
+
+
+def document(path, folder):
+    from monarch_flight.trials import bench_table
+    try:
+        bench_table.renew(path, os.path.join(folder, "bench.json"))
+    except (OSError, ValueError) as error:
+        raise keys.Refused(str(error)) from error
+    return 0

@@ -140,7 +140,8 @@ SharedFlow::SharedFlow(const Grid& grid, const Air& air, double reference_length
                        double courant_limit, MPI_Comm comm, double watchdog_s, int threads)
     : comm_(comm) {
   give(comm_, Order::kMake);
-  flow_ = here([&] { return make(comm_, watchdog_s, grid, air, reference_length, courant_limit); });
+  flow_ = here(
+      [&] { return make(comm_, watchdog_s, grid, air, reference_length, courant_limit, threads); });
 }
 
 void SharedFlow::start(const WingMotion& motion, double dt) {
@@ -208,7 +209,7 @@ void SharedFlow::serve(MPI_Comm comm) {
       switch (taken(comm)) {
         case Order::kMake:
           flow.reset();  // never two of them
-          flow = make(comm, 0, Grid(), Air(), 0, 0);
+          flow = make(comm, 0, Grid(), Air(), 0, 0, 1);
           break;
         case Order::kStart:
           share(comm, motion), share(comm, number), flow->start(motion, number);
