@@ -61,14 +61,14 @@ class SameState(flying.FlightTest):
         self.check_case_flies_alone(nodes["state_sha256"])
 
     def test_navier_stokes_air_and_answers_at_random_times(self):
-        """On a grid of some ten thousand cells, with every answer up to 5 ms late."""
+        """On a grid of some ten thousand cells: on one thread, on three, and with every answer up to 5 ms late."""
         with open(os.path.join(flying.ROOT, "config", "cases", "climb.yaml")) as f:
             case = yaml.safe_load(f)
         case["grid"] = TINY
         path = self.out("tiny.yaml")
         with open(path, "w") as f:
             yaml.safe_dump(case, f)
-        flights = {"process": (("in_process:=true",), {}), "nodes": ((), {}),
+        flights = {"process": (("in_process:=true", "threads:=1"), {}), "nodes": (("threads:=3",), {}),
                    "late": ((), {"MONARCH_ANSWER_DELAY_MS": "5"})}
         for name, (keys, environment) in flights.items():
             code, output = self.fly("case:=" + path, "flaps:=0.16", "out:=" + self.out(name), *keys, **environment)
