@@ -138,8 +138,8 @@ std::vector<FlowField::WingFace> NavierStokes::wingFaces() const {
       const Eigen::Vector3d upper = velocityAt(i, j, kw - 1), lower = velocityAt(i, j, kw);
       for (int c = 0; c < 2; ++c) {
         const double wall = level_n_.wall.at(c, x, y);
-        f.friction_upper[c] = air_.mu * (upper[c] - wall) / (0.5 * grid_.z.width[kw - 1]);
-        f.friction_lower[c] = air_.mu * (lower[c] - wall) / (0.5 * grid_.z.width[kw]);
+        f.friction_upper[c] = float(air_.mu * (upper[c] - wall) / (0.5 * grid_.z.width[kw - 1]));
+        f.friction_lower[c] = float(air_.mu * (lower[c] - wall) / (0.5 * grid_.z.width[kw]));
       }
       faces.push_back(f);
     }
