@@ -78,7 +78,9 @@ TEST_P(Sides, AFlowAndItsImageAreTheSame) {
     }
   }
   EXPECT_GT(inside, 0.1);
-  if (!open) EXPECT_EQ(outside, 0.0);  // no air through the closed ends
+  if (!open) {
+    EXPECT_EQ(outside, 0.0);  // no air through the closed ends
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(CellsBelowAndOuter, Sides,
