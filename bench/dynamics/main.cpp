@@ -13,7 +13,8 @@ namespace {
 const std::vector<DynamicsCheck>& checks() {
   static const std::vector<DynamicsCheck> all = {
       {"reduced", checkReducedForm}, {"exact", checkExactMotions}, {"momentum", checkConservation},
-      {"energy", checkEnergy},       {"newmark", checkNewmark}, {"six_dof", checkSixDof},    {"published", checkPublished},
+      {"energy", checkEnergy},       {"newmark", checkNewmark},    {"six_dof", checkSixDof},
+      {"published", checkPublished},
 #ifdef MONARCH_SIMBODY
       {"simbody", checkSimbody},
 #endif

@@ -223,7 +223,9 @@ PerWing<Reply> Coordinator::askAir(const Request& request, CommittedStep& out) {
   left.ask(request);
   air.right = exchange(Role::kFluid, request);
   air.left = accepted(Role::kFluidLeft, request, left.answer());
-  const auto of = [&out](Role role) -> double& { return out.wall_s[static_cast<std::size_t>(role)]; };
+  const auto of = [&out](Role role) -> double& {
+    return out.wall_s[static_cast<std::size_t>(role)];
+  };
   const auto slower = [&of] { return std::max(of(Role::kFluid), of(Role::kFluidLeft)); };
   const double before = slower();
   for (Side side : kSides) of(kFluids[side]) += air[side].wall_s;

@@ -36,7 +36,8 @@ std::vector<std::string> CoupledModel::problems() const {
   }
   if (mirrored && (free.lateral() || free[kThetaL])) {
     faults.push_back(
-        "free/y, roll, yaw, pitch of the left wing: must be false while one wing is the mirror image "
+        "free/y, roll, yaw, pitch of the left wing: must be false while one wing is the mirror "
+        "image "
         "of the other; set wings to independent");
   }
   if (insect.bare_wing && !mirrored)

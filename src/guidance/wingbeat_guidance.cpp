@@ -62,8 +62,7 @@ std::vector<std::string> WingbeatSettings::problems() const {
       fault(std::string("rates/") + kCommandTable[i].name, l.rate, "> 0 a flap; 1 is usual");
     const bool relative = i == kAmplitudeCommand || i == kFrequencyCommand;
     const CommandLimits& apart = limits[kDifferentialAmplitude];
-    const double least =
-        i == kAmplitudeCommand ? l.low - std::max(-apart.low, apart.high) : l.low;
+    const double least = i == kAmplitudeCommand ? l.low - std::max(-apart.low, apart.high) : l.low;
     if (relative && l.low > -1.0 && !(least > -1.0))
       fault(name + "[0] less limits/differential_amplitude", least,
             "> -1: both wings must beat; make either smaller");

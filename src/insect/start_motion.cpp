@@ -23,12 +23,11 @@ BodyState withAngles(BodyState body, const Coordinate& roll, const Coordinate& p
   body.q_IB = quaternionZ(yaw.q) * quaternionY(pitch.q) * quaternionX(roll.q);
   body.Omega_B = {roll.qd - yaw.qd * sp, pitch.qd * cr + yaw.qd * sr * cp,
                   yaw.qd * cp * cr - pitch.qd * sr};
-  body.Omega_dot_B = {
-      roll.qdd - yaw.qdd * sp - yaw.qd * pitch.qd * cp,
-      pitch.qdd * cr - pitch.qd * roll.qd * sr + yaw.qdd * sr * cp + yaw.qd * roll.qd * cr * cp -
-          yaw.qd * pitch.qd * sr * sp,
-      yaw.qdd * cp * cr - yaw.qd * pitch.qd * sp * cr - yaw.qd * roll.qd * cp * sr -
-          pitch.qdd * sr - pitch.qd * roll.qd * cr};
+  body.Omega_dot_B = {roll.qdd - yaw.qdd * sp - yaw.qd * pitch.qd * cp,
+                      pitch.qdd * cr - pitch.qd * roll.qd * sr + yaw.qdd * sr * cp +
+                          yaw.qd * roll.qd * cr * cp - yaw.qd * pitch.qd * sr * sp,
+                      yaw.qdd * cp * cr - yaw.qd * pitch.qd * sp * cr - yaw.qd * roll.qd * cp * sr -
+                          pitch.qdd * sr - pitch.qd * roll.qd * cr};
   return body;
 }
 

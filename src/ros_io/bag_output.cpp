@@ -14,8 +14,7 @@
 namespace monarch_flight {
 namespace {
 
-constexpr char kRemedy[] =
-    "; is the disk full? free space, choose another out:=, or record:=false";
+constexpr char kRemedy[] = "; is the disk full? free space, choose another out:=, or record:=false";
 
 std::string active(const std::string& path) { return path + ".active"; }
 
@@ -78,8 +77,8 @@ void BagOutput::create() {
   }
 }
 
-/// Copies what the bag held at the checkpoint. Whatever happens meanwhile, the messages are whole in
-/// one of the two files.
+/// Copies what the bag held at the checkpoint. Whatever happens meanwhile, the messages are whole
+/// in one of the two files.
 void BagOutput::takeOver() {
   namespace fs = std::filesystem;
   if (!fs::exists(before(path_)))

@@ -46,10 +46,10 @@ DiagnosticStatus guidance(const GuidanceReport& report) {
   out.hardware_id = "monarch_flight";
   const bool told = report.lost || report.clipped + report.refused > 0;
   out.level = told ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
-  out.message = report.lost            ? "guidance has given up"
-                : report.refused > 0   ? "commands were refused: not finite"
-                : report.clipped > 0   ? "commands were cut to their bounds"
-                                       : "as commanded";
+  out.message = report.lost          ? "guidance has given up"
+                : report.refused > 0 ? "commands were refused: not finite"
+                : report.clipped > 0 ? "commands were cut to their bounds"
+                                     : "as commanded";
   out.values = {entry("phase [flaps]", report.phase), count("clipped", report.clipped),
                 count("refused", report.refused)};
   for (const CommandInfo& info : kCommandTable)

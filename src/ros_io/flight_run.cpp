@@ -25,8 +25,7 @@ FlightRun::FlightRun(const Case& c, const std::string& out, bool resume, int ran
     messages_ = std::make_unique<MessageSink>(c, names, listeners, checkpoints_.outputs());
   std::cout << "case " << c.name << ": " << c.time.steps << " steps of " << c.time.dt
             << " s; results in " << out << std::endl;
-  for (const std::string& remark : runRemarks(c, c.time.steps))
-    std::cout << remark << std::endl;
+  for (const std::string& remark : runRemarks(c, c.time.steps)) std::cout << remark << std::endl;
   if (checkpoints_.resumption()) {
     progress_.resumeAt(checkpoints_.resumption()->step);
     tell();
@@ -72,8 +71,8 @@ int FlightRun::fly(std::uint64_t run_id, const Participants& participants, RunCo
   failure_ = result.failure;
   std::cerr << "flight failed: " << result.failure << std::endl;
   if (checkpoints_.kept().value_or(0) > 0)  // else it is as good to begin anew
-    std::cerr << "it can go on from step " << *checkpoints_.kept()
-              << ": " << checkpoints_.command() << std::endl;
+    std::cerr << "it can go on from step " << *checkpoints_.kept() << ": " << checkpoints_.command()
+              << std::endl;
   return stop ? kExitInterrupted : kExitFailed;
 }
 

@@ -26,7 +26,8 @@
 namespace monarch_flight {
 namespace {
 
-// A master that goes while nodes register with it is asked again for so long; roscpp's own limit is none.
+// A master that goes while nodes register with it is asked again for so long; roscpp's own limit is
+// none.
 const ros::WallDuration kMasterPatience(10.0);
 
 StopFlag stop_requested{false};
@@ -151,9 +152,10 @@ int inProcessMain(int argc, char** argv) {
       return static_cast<int>(kExitComplete);
     }
     if (c.guidance.kind == GuidanceKind::kNode || c.guidance.kind == GuidanceKind::kCommands)
-      throw InputError(std::string("guidance/type = ") + guidanceName(c.guidance.kind) +
-                       ": a run in one process has no nodes and no topics that could lead it; choose "
-                       "another type, or fly with nodes (in_process:=false)");
+      throw InputError(
+          std::string("guidance/type = ") + guidanceName(c.guidance.kind) +
+          ": a run in one process has no nodes and no topics that could lead it; choose "
+          "another type, or fly with nodes (in_process:=false)");
     requireProcesses(parameters, c);
     requirePlugins(c);
     if (parameters.ranks > 1 && !c.mirrored)

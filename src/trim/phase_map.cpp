@@ -161,8 +161,8 @@ FlapState PhaseMap::prescribedState(int phase) const {
 PhaseFlight PhaseMap::fly(int phase, const FlapState& s, const WingbeatStart& wingbeat,
                           int intervals, const FlapState* rates) const {
   const double flaps = static_cast<double>(intervals) / samples_;
-  const double slowest = 1.0 + std::min({0.0, wingbeat.filters[kFrequencyCommand].q,
-                                         wingbeat.command.frequency});
+  const double slowest =
+      1.0 + std::min({0.0, wingbeat.filters[kFrequencyCommand].q, wingbeat.command.frequency});
   const bool even = slowest == 1.0 && wingbeat.filters[kFrequencyCommand].qd == 0.0;
   const auto steps =
       std::ceil(flaps * case_.time.stepsPerFlap() / slowest - 1e-6) + (even ? 0.0 : 2.0);

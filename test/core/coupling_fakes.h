@@ -176,8 +176,8 @@ struct Federation {
     fluid_solver = std::make_unique<FluidParticipant>(Side::kRight, model, std::move(owned));
     flight_solver = std::make_unique<FlightParticipant>(model);
     wing_solver = std::make_unique<WingParticipant>(model);
-    guidance_solver = std::make_unique<GuidanceParticipant>(
-        model, std::make_unique<MotionGuidance>(motion));
+    guidance_solver =
+        std::make_unique<GuidanceParticipant>(model, std::make_unique<MotionGuidance>(motion));
     guidance = std::make_unique<Recorder>(*guidance_solver);
     fluid = std::make_unique<Recorder>(*fluid_solver);
     flight = std::make_unique<Recorder>(*flight_solver);

@@ -140,8 +140,8 @@ TEST(Strategies, PlainFixedPointDivergesAboveRatioOneAndSaysSo) {
   const CoupledOutcome outcome = heavy.run();
   EXPECT_FALSE(outcome.complete);
   EXPECT_GT(heavy.sink.steps.back().added_mass_ratio, 4.0);
-  for (const char* words : {"step 11", "theta_R", "largest residual of the last", "added-mass ratio",
-                            "set coupling/relaxation to added_mass"}) {
+  for (const char* words : {"step 11", "theta_R", "largest residual of the last",
+                            "added-mass ratio", "set coupling/relaxation to added_mass"}) {
     EXPECT_NE(outcome.failure.find(words), std::string::npos) << outcome.failure;
   }
 }
@@ -261,9 +261,9 @@ TEST(Balance, RatioOfOneHingeIsThatOfItsTwoInertias) {
   // Whole insect, falling: the air that both wings carry along over the mass of everything.
   model.free = {kZ};
   M = Matrix6d::Identity();
-  const double mass = MultibodyDynamics(model.insect, 9.81)
-                          .inertia(insectMotion(model.insect.beta, level.body,
-                                                prescribed.angles))(2, 2);
+  const double mass =
+      MultibodyDynamics(model.insect, 9.81)
+          .inertia(insectMotion(model.insect.beta, level.body, prescribed.angles))(2, 2);
   EXPECT_NEAR(InterfaceBalance(model).addedMassRatio(prescribed, level, both(M)), 2.0 / mass,
               1e-9 / mass);
 }

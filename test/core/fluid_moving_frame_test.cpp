@@ -2,10 +2,9 @@
 // air at rest, Stokes' second problem.
 #include <gtest/gtest.h>
 
-#include "monarch_flight/insect/prescribed_motion.h"
-
 #include "core/fluid_flapping.h"
 #include "fluid/flow.h"
+#include "monarch_flight/insect/prescribed_motion.h"
 
 namespace monarch_flight {
 namespace {

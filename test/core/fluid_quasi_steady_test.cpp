@@ -1,9 +1,8 @@
 // Blade-element model against the laws of docs/quasi_steady.md: translation and rotation.
 #include <gtest/gtest.h>
 
-#include "monarch_flight/insect/prescribed_motion.h"
-
 #include "core/quasi_steady_motions.h"
+#include "monarch_flight/insect/prescribed_motion.h"
 
 namespace monarch_flight {
 namespace {

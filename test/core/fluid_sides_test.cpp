@@ -1,5 +1,5 @@
-// A grid with few cells on one side of the wing: seen in a mirror, where they lie on the other side,
-// it gives the same flow.
+// A grid with few cells on one side of the wing: seen in a mirror, where they lie on the other
+// side, it gives the same flow.
 #include <gtest/gtest.h>
 
 #include <algorithm>

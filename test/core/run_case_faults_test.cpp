@@ -59,11 +59,13 @@ TEST_F(CaseTest, FilesAndNames) {
   expectHas(faults("nope"),
             "one of climb, climb_controlled, climb_fwuav, climb_printed, climb_settled, "
             "climb_standard, "
-            "climb_trimmed, climb_turning, hinge, measured_motion, passive_pitch, plate_re100, tethered_fwuav");
+            "climb_trimmed, climb_turning, hinge, measured_motion, passive_pitch, plate_re100, "
+            "tethered_fwuav");
   expectHas(faults("/nonexistent/case.yaml"), "/nonexistent/case.yaml does not exist");
   expectHas(faults(write("syntax.yaml", "a: [1\n")), "is not YAML");
   expectHas(faults(write("list.yaml", "[1, 2]\n")), "holds no keys");
-  expectHas(faultsWith("climb_printed", "preset: monarch_paper", "preset: bee"), "insect/preset = 'bee'");
+  expectHas(faultsWith("climb_printed", "preset: monarch_paper", "preset: bee"),
+            "insect/preset = 'bee'");
   expectHas(faultsWith("climb_printed", "series: monarch", "series: bee"),
             "bee_kinematics.yaml does not exist; there are monarch");
   expectHas(faultsWith("hinge", "whitney_wood_wing.csv", "absent.csv"),

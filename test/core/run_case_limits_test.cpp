@@ -114,7 +114,8 @@ TEST_F(CaseTest, FlapsAreCountedInWholeSteps) {
        {std::tuple{"0.05", 25u, 0.0}, std::tuple{"0.1", 50u, 0.0}, std::tuple{"1e-1", 50u, 0.0},
         std::tuple{"0.002", 1u, 0.0}, std::tuple{"1.998", 999u, 0.0},
         std::tuple{"0.333", 166u, 0.5}, std::tuple{"0.3333332", 166u, 2.0 / 3.0}}) {
-    const Case c = loadCase("climb_printed", {{"flaps", flaps}, {"fluid", "quasi_steady"}}, CONFIG_DIR);
+    const Case c =
+        loadCase("climb_printed", {{"flaps", flaps}, {"fluid", "quasi_steady"}}, CONFIG_DIR);
     EXPECT_EQ(c.time.steps, steps) << flaps;
     EXPECT_NEAR(c.time.remainder, left, 1e-4) << flaps;
     std::string remarks;
@@ -130,7 +131,8 @@ TEST_F(CaseTest, FlapsAreCountedInWholeSteps) {
   for (const char* bad : {"0", "-1", "1e400", "inf", "nan"})
     expectHas(faults("climb_printed", {{"flaps", bad}}), std::string("time/flaps = ") + bad);
   expectHas(faults("climb_printed", {{"flaps", "1e400"}}), "must be a finite number > 0");
-  expectHas(faults("climb_printed", {{"flaps", "0.001"}}), "time/flaps amounts to 0.5 steps: must be 1 to");
+  expectHas(faults("climb_printed", {{"flaps", "0.001"}}),
+            "time/flaps amounts to 0.5 steps: must be 1 to");
 }
 
 /// The number behind `words` in a message.
@@ -220,9 +222,9 @@ TEST_F(CaseTest, AWingThatTurnsTooFarInAStepIsRefused) {
 }
 
 TEST_F(CaseTest, ShippedCasesFlyAtFewStepsAFlap) {
-  for (const char* name : {"climb_printed", "climb_fwuav", "climb_trimmed", "climb",
-                           "climb_standard", "passive_pitch", "measured_motion",
-                           "tethered_fwuav", "hinge"}) {
+  for (const char* name :
+       {"climb_printed", "climb_fwuav", "climb_trimmed", "climb", "climb_standard", "passive_pitch",
+        "measured_motion", "tethered_fwuav", "hinge"}) {
     for (const char* steps : {"25", "100", "250", "1000"}) {
       EXPECT_EQ(faults(name, {{"fluid", "quasi_steady"}, {"steps_per_flap", steps}}), "")
           << name << ' ' << steps;

@@ -10,8 +10,8 @@ namespace monarch_flight {
 namespace {
 
 TEST_F(CaseTest, EveryShippedCaseLoads) {
-  for (const char* name : {"climb_printed", "climb_fwuav", "climb_trimmed", "tethered_fwuav", "hinge",
-                           "plate_re100"}) {
+  for (const char* name : {"climb_printed", "climb_fwuav", "climb_trimmed", "tethered_fwuav",
+                           "hinge", "plate_re100"}) {
     const Case c = loadCase(name, {}, CONFIG_DIR);
     EXPECT_EQ(c.name, name);
     EXPECT_EQ(c.sha256.size(), 64u);
@@ -64,8 +64,8 @@ TEST_F(CaseTest, PlateHasLengthsOfOrderOne) {
 }
 
 TEST_F(CaseTest, ResolvedCaseLoadsToItselfBitForBit) {
-  for (const char* name : {"climb_printed", "climb_fwuav", "climb_trimmed", "tethered_fwuav", "hinge",
-                           "plate_re100"}) {
+  for (const char* name : {"climb_printed", "climb_fwuav", "climb_trimmed", "tethered_fwuav",
+                           "hinge", "plate_re100"}) {
     const Case c = loadCase(name, {{"record", "false"}}, CONFIG_DIR);
     const Case again = loadCase(write("resolved.yaml", c.resolved_yaml), {}, CONFIG_DIR);
     EXPECT_EQ(again.resolved_yaml, c.resolved_yaml);

@@ -141,7 +141,8 @@ TEST_F(CaseTest, AGustAlongAFlightNeedsAFlight) {
 /// Only one wing of a butterfly is solved, and mirrored.
 TEST_F(CaseTest, NoWindFromTheSideOnMirroredWings) {
   const auto climbIn = [this](const std::string& wind) {
-    return faultsWith("climb_printed", "solver: navier_stokes", "solver: quasi_steady\n  wind: " + wind);
+    return faultsWith("climb_printed", "solver: navier_stokes",
+                      "solver: quasi_steady\n  wind: " + wind);
   };
   const std::string why = "must be 0 while only one wing is solved and mirrored";
   expectHas(climbIn("[1, 0.2, 0]"), "fluid/wind[1] = 0.2 m/s: " + why);

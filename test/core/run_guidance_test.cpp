@@ -54,12 +54,12 @@ class GuidedRun : public Checkpointed {
     Meddler meddler(std::move(act));
     const std::string folder = checkpointFolder(out(name));
     InProcessFederation solvers(c, folder);
-    KeptParticipant guidance("guidance",
-                             std::make_unique<GuidanceParticipant>(
-                                 makeModel(c), std::make_unique<WingbeatGuidance>(
-                                                   c.motion, c.wind, c.guidance.wingbeat,
-                                                   c.time.t_start, std::move(source))),
-                             folder);
+    KeptParticipant guidance(
+        "guidance",
+        std::make_unique<GuidanceParticipant>(
+            makeModel(c), std::make_unique<WingbeatGuidance>(c.motion, c.wind, c.guidance.wingbeat,
+                                                             c.time.t_start, std::move(source))),
+        folder);
     Participants all = solvers.participants();
     all[static_cast<std::size_t>(Role::kGuidance)] = &guidance;
     FlyUntil control(stop_);
@@ -111,8 +111,8 @@ TEST_F(GuidedRun, AKilledLedFlightGoesOnBitForBit) {
 TEST_F(GuidedRun, AFailingGuidanceLeavesACheckpointToGoOnFrom) {
   const Case c = climb({{"guidance", "commands"}});
   ASSERT_TRUE(flyLed(c, "whole").complete);
-  const RunResult failed =
-      flyLed(c, "cut", false, [](std::uint32_t) {}, std::make_unique<Failing>(37));
+  const RunResult failed = flyLed(
+      c, "cut", false, [](std::uint32_t) {}, std::make_unique<Failing>(37));
   EXPECT_FALSE(failed.complete);
   expectHas(failed.failure, "step 37");
   expectHas(failed.failure, "the leader has lost its way");
@@ -140,16 +140,16 @@ TEST_F(GuidedRun, AReplayThatDoesNotFitIsRefused) {
   ASSERT_TRUE(fly(climb(), "short").complete);
   const std::string file = out("short") + "/flight.csv";
   expectHas(faults("climb_printed", {{"fluid", "quasi_steady"},
-                             {"flaps", "1"},
-                             {"steps_per_flap", "100"},
-                             {"guidance", "replay"},
-                             {"guidance_file", file}}),
+                                     {"flaps", "1"},
+                                     {"steps_per_flap", "100"},
+                                     {"guidance", "replay"},
+                                     {"guidance_file", file}}),
             "has 51 rows: must have one a level, 101");
   expectHas(faults("climb_printed", {{"fluid", "quasi_steady"},
-                             {"flaps", "0.2"},
-                             {"steps_per_flap", "200"},
-                             {"guidance", "replay"},
-                             {"guidance_file", file}}),
+                                     {"flaps", "0.2"},
+                                     {"steps_per_flap", "200"},
+                                     {"guidance", "replay"},
+                                     {"guidance_file", file}}),
             "column t = ");
   expectHas(faults("climb_printed", {{"guidance", "replay"}}), "guidance/rows is missing");
   expectHas(faults("climb_printed", {{"guidance", "controller"}}),

@@ -54,10 +54,10 @@ TEST_F(OutputSize, OfABagIsEstimatedWithinAFactorOfTwo) {
   expectBag(quick("climb_printed", {{"flaps", "0.1"}}), 105690, "short");
   expectBag(quick("climb_controlled", {{"flaps", "4"}}), 2529362, "controlled");
   expectBag(quick("climb_turning", {{"flaps", "4"}}), 3380795, "turning");
-  expectBag(loadCase("climb_printed",
-                     {{"fluid", "navier_stokes"}, {"grid", "preview"}, {"flaps", "0.6"}},
-                     CONFIG_DIR),
-            1654728, "preview");
+  expectBag(
+      loadCase("climb_printed", {{"fluid", "navier_stokes"}, {"grid", "preview"}, {"flaps", "0.6"}},
+               CONFIG_DIR),
+      1654728, "preview");
 }
 
 /// What is in the folder already needs no room; the bag is copied.

@@ -23,9 +23,11 @@ static long shift(void) {
 
 int clock_gettime(clockid_t clock, struct timespec* at) {
   static int (*original)(clockid_t, struct timespec*);
-  if (original == NULL) original = (int (*)(clockid_t, struct timespec*))dlsym(RTLD_NEXT, "clock_gettime");
+  if (original == NULL)
+    original = (int (*)(clockid_t, struct timespec*))dlsym(RTLD_NEXT, "clock_gettime");
   const int code = original(clock, at);
-  if (code == 0 && (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE)) at->tv_sec += shift();
+  if (code == 0 && (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE))
+    at->tv_sec += shift();
   return code;
 }
 

@@ -31,8 +31,8 @@ class Bag : public testing::Test {
   static void SetUpTestSuite() {
     folder = new TemporaryFolder();
     Process flight(std::string(NODE_DIR) + "/fly_in_process",
-                   {"case:=climb_printed", "fluid:=quasi_steady", "steps_per_flap:=240", "flaps:=0.5",
-                    "out:=" + (*folder / "run")},
+                   {"case:=climb_printed", "fluid:=quasi_steady", "steps_per_flap:=240",
+                    "flaps:=0.5", "out:=" + (*folder / "run")},
                    *folder / "flight.log");
     ASSERT_EQ(0, flight.wait(60.0)) << flight.output();
     ASSERT_FALSE(exists(*folder / "run/flight.bag.active"));
@@ -259,7 +259,8 @@ TEST(PublishedWind, IsTheCommittedOneInEastNorthUp) {
 }
 
 TEST(LongPath, StaysBoundedAndKeepsItsBeginning) {
-  Case c = loadCase("climb_printed", {{"fluid", "quasi_steady"}, {"steps_per_flap", "320"}}, CONFIG_DIR);
+  Case c =
+      loadCase("climb_printed", {{"fluid", "quasi_steady"}, {"steps_per_flap", "320"}}, CONFIG_DIR);
   FlightMessages messages(c);
   std::size_t poses = 0, published = 0, bytes = 0;
   for (std::uint32_t step = 0; step <= 320 * 100; ++step) {
@@ -290,9 +291,10 @@ TEST(FullDisk, LeavesTheBagUnderItsActiveName) {
   small.rlim_cur = 150000;  // inherited by the flight; stands for a full disk
   signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &small);
-  Process flight(std::string(NODE_DIR) + "/fly_in_process",
-                 {"case:=climb_printed", "fluid:=quasi_steady", "flaps:=20", "out:=" + (folder / "run")},
-                 folder / "flight.log");
+  Process flight(
+      std::string(NODE_DIR) + "/fly_in_process",
+      {"case:=climb_printed", "fluid:=quasi_steady", "flaps:=20", "out:=" + (folder / "run")},
+      folder / "flight.log");
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(1, flight.wait(30.0));
   EXPECT_NE(std::string::npos, flight.output().find("flight failed: ")) << flight.output();

@@ -10,9 +10,10 @@ TEST_F(Nodes, FlyLikeOneProcessBitForBit) {
   EXPECT_EQ(0, fluid->wait(5.0)) << fluid->output();
   EXPECT_EQ(0, flight->wait(5.0)) << flight->output();
   EXPECT_EQ(0, wing->wait(5.0)) << wing->output();
-  Process alone(std::string(NODE_DIR) + "/fly_in_process",
-                {"case:=climb_printed", "fluid:=quasi_steady", "flaps:=0.1", "out:=" + (folder / "alone")},
-                folder / "alone.log");
+  Process alone(
+      std::string(NODE_DIR) + "/fly_in_process",
+      {"case:=climb_printed", "fluid:=quasi_steady", "flaps:=0.1", "out:=" + (folder / "alone")},
+      folder / "alone.log");
   EXPECT_EQ(0, alone.wait(20.0)) << alone.output();
   const nlohmann::json nodes = summary(), process = summary("alone");
   EXPECT_EQ("complete", nodes["status"]);
