@@ -76,7 +76,9 @@ TEST(Attitude, SpinKeepsEnergyAndMomentumAsTheStepGoesToZero) {
     const double error = std::abs(dynamics.kineticEnergy(end) / energy - 1.0) +
                          (dynamics.linearMomentum(end) - momentum).norm() / momentum.norm() +
                          (dynamics.angularMomentum(end) - spin).norm() / spin.norm();
-    if (before > 0.0) EXPECT_NEAR(std::log2(before / error), 2.0, 0.2);
+    if (before > 0.0) {
+      EXPECT_NEAR(std::log2(before / error), 2.0, 0.2);
+    }
     before = error;
   }
   EXPECT_LT(before, 1e-4);
