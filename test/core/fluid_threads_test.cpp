@@ -17,6 +17,8 @@ WingMotion flapping(double t) {
   return m;
 }
 
+constexpr int kSteps = 20;
+
 struct Flown {
   std::vector<Loads> loads;
   std::vector<char> state;
@@ -35,7 +37,7 @@ Flown flown(int threads, bool open) {
   constexpr double kDt = 2e-4;
   flow.start(flapping(0), kDt);
   Flown result;
-  for (int n = 1; n <= 4; ++n) {
+  for (int n = 1; n <= kSteps; ++n) {
     result.loads.push_back(flow.evaluate(flapping((n + 0.2) * kDt)));
     result.loads.push_back(flow.evaluate(flapping(n * kDt)));
     flow.commit();
@@ -75,7 +77,7 @@ TEST(RepeatedEvaluation, IsTheFirstOne) {
   NavierStokes flow(makeGrid(Planform::rectangle(0.02, 0.05, 0.25), s), air, 0.02, 10.0);
   constexpr double kDt = 2e-4;
   flow.start(flapping(0), kDt);
-  for (int n = 1; n <= 4; ++n) {
+  for (int n = 1; n <= kSteps; ++n) {
     const Loads loads = flow.evaluate(flapping(n * kDt));
     EXPECT_EQ(loads.force(), alone.loads[2 * n - 1].force());
     EXPECT_EQ(loads.moment(), alone.loads[2 * n - 1].moment());

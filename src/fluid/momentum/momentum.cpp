@@ -32,8 +32,11 @@ Momentum::Momentum(const Grid& grid, const Layout& layout, const Slab& slab, con
       planes_(team.threads(), PlaneScratch(layout)),
       gammas_(team.threads()) {
   for (Array& gamma : gammas_) gamma.assign(kRowsZ * (layout.nz + 1) * layout.sy, 0.0);
-  for (Array* plane : {&wing_plane_, &behind_, &solved_[0], &solved_[1]})
-    plane->assign(layout.sz, 0.0);
+  wing_plane_.assign(layout.sz, 0.0);
+  for (int c = 0; c < 3; ++c) {
+    for (Array* plane : {&behind_[c], &solved_[c][0], &solved_[c][1]})
+      plane->assign(layout.sz, 0.0);
+  }
   gamma_field_.assign(layout.size(), 0.0);
   for (int component : {0, 1}) {
     for (int b = 0; b < blocks(component); ++b)
@@ -62,8 +65,8 @@ Lines Momentum::lines(const Velocity& vn, const Velocity& c, int component, doub
           gamma_field_.data() + layout_.at(0, 0, 0),
           layout_.sy,
           layout_.sz,
-          behind_.data(),
-          {solved_[0].data(), solved_[1].data()},
+          behind_[component].data(),
+          {solved_[component][0].data(), solved_[component][1].data()},
           vn.c[component].data(),
           v_star.c[component].data()};
 }

@@ -54,7 +54,8 @@ class Momentum {
   std::vector<PlaneScratch> planes_;  ///< one a thread
   std::vector<Array> gammas_;         ///< of a block of lines, one a thread
   Array gamma_field_;  ///< of all lines: of w; of any component where several processes share them
-  Array behind_, solved_[2];  ///< planes, see Lines
+  /// Planes, see Lines: of each component, since lines of u and v are solved at the same time.
+  Array behind_[3], solved_[3][2];
 };
 
 }  // namespace monarch_flight::fluid::momentum
