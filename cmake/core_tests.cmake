@@ -50,3 +50,11 @@ if(VTK_FOUND)
   add_test(NAME fields_output_test COMMAND monarch_fields_output_test)
   set_tests_properties(fields_output_test PROPERTIES TIMEOUT 120 ENVIRONMENT "OPENBLAS_NUM_THREADS=1")
 endif()
+
+# What the compiler made of the flow's eliminations; sanitizers keep it from making vectors.
+if(NOT MONARCH_SANITIZERS AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  find_program(SYSTEM_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+  add_test(NAME fluid_packed_divisions
+    COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test/core/packed_divisions_check.py $<TARGET_FILE:monarch_fluid>)
+  set_tests_properties(fluid_packed_divisions PROPERTIES TIMEOUT 60)
+endif()
