@@ -3,11 +3,11 @@
 
 Waits while a coordinator, or an rviz, of the same roslaunch lives; other nodes then have some seconds to end.
 Then it takes the parameters of its flight off the master, which may live on."""
-import http.client
 import os
 import signal
 import time
-import xmlrpc.client
+
+from monarch_flight.runs.master import ask
 
 BEGIN, QUIET, LEAVE, LOOK = 30.0, 5.0, 10.0, 0.2  # s
 NODES = {"coordinator", "fluid", "flight", "wing", "rviz"}
@@ -46,25 +46,6 @@ def leader_begins():
         last = time.monotonic() if seen else last
         time.sleep(LOOK)
     return False
-
-
-class Impatient(xmlrpc.client.Transport):
-    """HTTP with a time limit."""
-
-    def make_connection(self, host):
-        connection = super().make_connection(host)
-        connection.timeout = 2.0
-        return connection
-
-
-def ask(uri, method, *arguments):
-    """The value that an XML-RPC server answers with, or None."""
-    try:
-        with xmlrpc.client.ServerProxy(uri, transport=Impatient()) as server:
-            code, _, value = getattr(server, method)("/flown", *arguments)
-        return value if code == 1 else None
-    except (OSError, http.client.HTTPException, xmlrpc.client.Error):
-        return None
 
 
 def tidy(may_live):

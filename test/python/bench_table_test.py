@@ -1,6 +1,5 @@
 """Figures of bench.json in a document."""
 import json
-import os
 import pathlib
 import sys
 import tempfile
@@ -14,17 +13,19 @@ ROWS = [{"name": "processor", "value": "one of mine", "unit": "", "bar": None, "
         {"name": "threads_2_speedup_at_2.5M", "value": 1.5, "unit": "", "bar": 1.75, "at_least": True, "pass": False}]
 
 
+def renewed(document):
+    """The text of a document after the figures of ROWS were put into it."""
+    with tempfile.TemporaryDirectory() as folder:
+        results, path = pathlib.Path(folder, "bench.json"), pathlib.Path(folder, "speed.md")
+        results.write_text(json.dumps(ROWS), encoding="utf-8")
+        path.write_text(document, encoding="utf-8")
+        bench_table.renew(path, results)
+        return path.read_text(encoding="utf-8")
+
+
 class Figures(unittest.TestCase):
     def test_of_the_run_replace_those_before(self):
-        with tempfile.TemporaryDirectory() as folder:
-            results, document = os.path.join(folder, "bench.json"), os.path.join(folder, "speed.md")
-            with open(results, "w", encoding="utf-8") as file:
-                json.dump(ROWS, file)
-            with open(document, "w", encoding="utf-8") as file:
-                file.write("before\n" + bench_table.BEGIN + "old\n" + bench_table.END + "after\n")
-            bench_table.renew(document, results)
-            with open(document, encoding="utf-8") as file:
-                text = file.read()
+        text = renewed("before\n" + bench_table.BEGIN + "old\n" + bench_table.END + "after\n")
         self.assertTrue(text.startswith("before\n") and text.endswith("after\n"), text)
         self.assertNotIn("old", text)
         for line in ("Processor: one of mine", "| full solve, best | - | 51.2 | - | - |",
@@ -32,14 +33,8 @@ class Figures(unittest.TestCase):
             self.assertIn(line, text)
 
     def test_need_a_place(self):
-        with tempfile.TemporaryDirectory() as folder:
-            results, document = os.path.join(folder, "bench.json"), os.path.join(folder, "speed.md")
-            with open(results, "w", encoding="utf-8") as file:
-                json.dump(ROWS, file)
-            with open(document, "w", encoding="utf-8") as file:
-                file.write("nothing\n")
-            with self.assertRaisesRegex(ValueError, "no place for the figures"):
-                bench_table.renew(document, results)
+        with self.assertRaisesRegex(ValueError, "no place for the figures"):
+            renewed("nothing\n")
 
 
 if __name__ == "__main__":

@@ -32,10 +32,18 @@ class Attacker {
       : topic_(topic),
         token_(token),
         random_(seed),
-        publisher_(node.advertise<Sealed<Message>>(topic, 0)),
-        subscriber_(node.subscribe(topic, 0, &Attacker::overhear, this)) {}
+        node_(node),
+        publisher_(node.advertise<Sealed<Message>>(topic, 0)) {
+    listen();
+  }
 
+  const std::string& topic() const { return topic_; }
   bool ready() const { return publisher_.getNumSubscribers() >= 2 && !heard_.empty(); }
+  /// Anew: roscpp does not try again where a node could not be reached once.
+  void listen() {
+    subscriber_.shutdown();
+    subscriber_ = node_.subscribe(topic_, 0, &Attacker::overhear, this);
+  }
 
   /// Sends one message of a random kind.
   void send(Sent& sent) {
@@ -98,6 +106,7 @@ class Attacker {
   std::string topic_;
   Token token_;
   std::mt19937 random_;
+  ros::NodeHandle node_;
   std::vector<Message> heard_;  // the last ones
   std::size_t heard_count_ = 0;
   ros::Publisher publisher_;

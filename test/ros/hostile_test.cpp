@@ -41,6 +41,16 @@ struct Attackers {
     for (auto& a : requests) action(*a);
     for (auto& a : replies) action(*a);
   }
+  /// Topics where nothing was heard yet, or too few listen; they are sought anew.
+  std::string missing() {
+    std::string topics;
+    each([&topics](auto& a) {
+      if (a.ready()) return;
+      topics += a.topic() + " ";
+      a.listen();
+    });
+    return topics;
+  }
   bool ready() {
     bool all = true;
     each([&all](const auto& a) { all = all && a.ready(); });
@@ -91,7 +101,11 @@ class HostileMessages : public Nodes {
     ros::NodeHandle node;
     Attackers attackers(node, roles);
     Refused refused(node);
-    ASSERT_TRUE(spinUntil([&] { return attackers.ready(); }, 20.0)) << coordinator->output();
+    std::string missing;
+    for (int attempt = 0; attempt < 4 && !attackers.ready(); ++attempt) {
+      if (!spinUntil([&] { return attackers.ready(); }, 5.0)) missing = attackers.missing();
+    }
+    ASSERT_TRUE(attackers.ready()) << missing << "\n" << coordinator->output();
     for (unsigned i = 0; i < messages_; ++i) {
       attackers.each([&sent](auto& a) { a.send(sent); });
       ros::spinOnce();

@@ -27,7 +27,7 @@ class Processes {
 /// shared with the flow's other processes here and with `flows` at a time. Results do not depend on
 /// it.
 void setFlowThreads(int threads);
-int flowThreads(int processes_here, int flows);
+int flowThreads(int here, int flows);
 
 /// Processes that makeNavierStokes will share its grid among.
 int flowProcesses();

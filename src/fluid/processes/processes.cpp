@@ -66,9 +66,9 @@ void Processes::serveFlow() const { fluid::processes::SharedFlow::serve(MPI_COMM
 
 void setFlowThreads(int threads) { threads_wanted = threads; }
 
-int flowThreads(int processes_here_now, int flows) {
+int flowThreads(int here, int flows) {
   if (threads_wanted > 0) return threads_wanted;
-  return std::max(1, omp_get_max_threads() / (processes_here_now * flows));
+  return std::max(1, omp_get_max_threads() / (here * flows));
 }
 
 int flowProcessesHere() { return processes_here; }
