@@ -11,10 +11,12 @@ if(MONARCH_SANITIZERS)  # these are slow
   list(APPEND ROS_TEST_ENVIRONMENT "MONARCH_HOSTILE_MESSAGES=60")
 endif()
 
+add_library(monarch_ros_test_main OBJECT EXCLUDE_FROM_ALL test/ros/main.cpp)
+target_link_libraries(monarch_ros_test_main PRIVATE monarch_ros_io GTest::gtest)
 file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
 foreach(source ${ros_tests})
   get_filename_component(name ${source} NAME_WE)
-  monarch_test_program(ros_${name} ${source} test/ros/main.cpp)
+  monarch_test_program(ros_${name} ${source} $<TARGET_OBJECTS:monarch_ros_test_main>)
   # Beside the nodes: monarch hostile calls one of them.
   set_target_properties(monarch_ros_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${NODE_DIR})
   target_link_libraries(monarch_ros_${name} PRIVATE monarch_ros_io ${tf2_LIBRARIES} nlohmann_json::nlohmann_json)

@@ -1,27 +1,17 @@
-"""What is made from config/keys.yaml: arguments and parameters of launch/flight.launch, the
-arguments of launch/climb.launch, and the table of README.md."""
-import dataclasses
+"""What is made from config/keys.yaml: arguments and parameters of launch/flight.launch, and the table of README.md."""
 import re
 from xml.sax.saxutils import quoteattr
 
 MADE = "made from config/keys.yaml by: monarch keys write:=true"
 
 
-def launch_arguments(table, case=None):
-    """The <arg> lines; an argument stands behind those that its default names. `case`: instead of the default case."""
+def launch_arguments(table):
+    """The <arg> lines; an argument stands behind those that its default names."""
     wanted = table.of("launch")
-    if case:
-        usual = wanted["case"]
-        wanted["case"] = dataclasses.replace(usual, launch=usual.launch.replace(usual.default, case))
-    later = {name for name, key in wanted.items() if "arg('" in key.launch}
+    later = {name for name, key in wanted.items() if "arg('" in key.launch or "$(arg " in key.launch}
     names = [name for name in wanted if name not in later] + [name for name in wanted if name in later]
-    return "".join(f"  <arg name={quoteattr(name)} default={attribute(wanted[name].launch or 'auto')}\n"
+    return "".join(f"  <arg name={quoteattr(name)} default={attribute(wanted[name].launch)}\n"
                    f"       doc={attribute(launch_doc(wanted[name]))}/>\n" for name in names)
-
-
-def climb_arguments(table):
-    """The same of launch/climb.launch with its own case: an include may give only what the file declares."""
-    return launch_arguments(table, case="climb")
 
 
 def attribute(text):
@@ -51,7 +41,8 @@ def parameter(key):
 def value(key):
     """Unit and range, for the manual."""
     words = {"choice": ", ".join(f"`{choice}`" for choice in key.choices), "truth": "`true`, `false`",
-             "program": "name of a program", "package": "name of a package", "path": "path", "command": "command", "case": "name or path"}
+             "program": "name of a program", "package": "name of a package", "machine": "name of a machine",
+             "path": "path", "command": "command", "case": "name or path"}
     if key.type in words:
         return words[key.type] + (f", `{key.plugin}`" if key.plugin else "")
     bound = f"> {key.above:g}" if key.type == "number" else (
@@ -78,7 +69,6 @@ def manual(table):
 
 BLOCKS = (("launch/flight.launch", "arguments", launch_arguments),
           ("launch/flight.launch", "parameters", launch_parameters),
-          ("launch/climb.launch", "arguments", climb_arguments),
           ("README.md", "keys", manual))
 
 

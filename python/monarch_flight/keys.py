@@ -32,7 +32,7 @@ class Key:
     default: str = None
     of: tuple = ()
     override: str = ""
-    launch: str = ""
+    launch: str = "auto"
     unset: str = ""
     see: str = ""
 
@@ -48,7 +48,7 @@ class Key:
         if self.type == "count":
             bounds = f" >= {self.from_}" if self.to is None else f" from {self.from_} to {self.to}"
             return "a whole number" + (" > 0" if self.to is None and self.from_ == 1 else bounds)
-        return f"the name of a {self.type}" if self.type in ("program", "package") else ""
+        return f"the name of a {self.type}" if self.type in ("program", "package", "machine") else ""
 
     @property
     def words(self):

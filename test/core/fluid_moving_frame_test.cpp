@@ -71,6 +71,40 @@ TEST(NavierStokes, UniformStreamSurvivesAFullTurn) {
   }
 }
 
+/// Largest deviation of the air from a uniform stream after `steps` steps of a wing's place that
+/// flaps, pitches and moves on, in the axes of the components; `behind`: the largest angle between
+/// these and the wing's [rad].
+double strayed(int steps, double& behind) {
+  NavierStokes flow(boxWithoutWing(8), thinAir(), 1.0, 100.0);
+  const double dt = 1.0 / steps;
+  const Vector3d stream(0.3, -0.7, 1.1);
+  flow.start(flapping(0), dt);
+  flow.setKnownFlow([&](const Vector3d&, double) { return stream; });
+  double worst = behind = 0;
+  for (int n = 1; n <= steps; ++n) {
+    flow.evaluate(flapping(n * dt));
+    flow.commit();
+    const Eigen::Matrix3d& axes = flow.axes();
+    behind = std::max(behind, logSO3(axes.transpose() * flapping(n * dt).R_IW).norm());
+    const Vector3d expected = axes.transpose() * stream;
+    const Layout& l = flow.layout();
+    for (int k = 0; k < l.nz; ++k)
+      for (int j = 0; j < l.ny; ++j)
+        for (int i = 0; i < l.nx; ++i)
+          for (int c = 0; c < 3; ++c)
+            worst = std::max(worst, std::abs(flow.velocity().c[c][l.at(i, j, k)] - expected[c]));
+  }
+  return worst / stream.norm();
+}
+
+TEST(NavierStokes, UniformStreamSurvivesAVaryingRateOfTurn) {
+  double coarse = 0, fine = 0;
+  EXPECT_LT(strayed(100, coarse), 1e-10);
+  EXPECT_LT(strayed(200, fine), 1e-10);
+  EXPECT_GT(coarse, 1e-6);               // the rate does vary
+  EXPECT_NEAR(coarse / fine, 8.0, 1.0);  // third order in the time step
+}
+
 TEST(NavierStokes, AWindIsAMovingFrame) {
   const Planform wing = Planform::rectangle(1, 1.5, 0.25);
   const auto still = makeNavierStokes(wing, thinAir(), smallGrid());

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Launch files of other people that include ours: arguments, namespaces, strangers beside the nodes of a flight."""
 import os
+import re
 import subprocess
 import time
 import unittest
@@ -43,7 +44,22 @@ class Launch(flying.FlightTest):
         self.assertEqual(flying.summary(self.out(name))["case"], case, output)
 
     def test_an_include_gives_arguments(self):
-        self.check("one", self.launched(include("$(find monarch_flight)/launch/climb.launch", self.out("one"))), "climb")
+        case = '<arg name="case" value="climb"/>'
+        self.check("one", self.launched(include(FLIGHT, self.out("one"), case)), "climb")
+
+    def test_a_prefix_and_a_machine(self):
+        """A prefix starts every node; a machine is one that the launch file declares."""
+        starter = os.path.join(self.folder, "starter")
+        with open(starter, "w", encoding="utf-8") as file:
+            file.write('#!/bin/sh\necho started $(basename "$1")\nexec "$@"\n')
+        os.chmod(starter, 0o755)
+        machine = '<machine name="near" address="localhost" env-loader="/usr/bin/env"/>'
+        more = f'<arg name="launch_prefix" value="{starter}"/><arg name="machine" value="%s"/>'
+        output = self.launched(machine + include(FLIGHT, self.out("one"), more % "near"))
+        self.check("one", output, "climb_controlled")
+        self.assertEqual(sorted(re.findall("started (.*)", output)), ["coordinator", "flight", "fluid", "wing"])
+        self.assertIn("unknown machine [far]", self.launched(machine + include(FLIGHT, self.out("two"), more % "far")))
+        self.assertFalse(os.path.exists(self.out("two")))
 
     def test_a_stranger_has_parameters_in_the_same_namespace(self):
         stranger = ('<group ns="monarch_flight"><node pkg="rosout" type="rosout" name="other">'

@@ -19,13 +19,20 @@ WingMotion flapping(double t) {
   return m;
 }
 
-Grid plate(bool open) {
+enum class Outer { kRest, kOpen, kRestClose };  ///< the last: few planes below the wing
+
+Grid plate(Outer outer) {
   GridSettings s = GridSettings::preset("preview");
   s.cells_per_chord = 6;
   s.first_cell = 0.08;
   s.far_field = 3;
-  s.outer = open ? "open" : "rest";
-  return makeGrid(Planform::ellipse(1.0, 2.0, 0.3), s);
+  s.outer = outer == Outer::kOpen ? "open" : "rest";
+  Grid grid = makeGrid(Planform::ellipse(1.0, 2.0, 0.3), s);
+  if (outer != Outer::kRestClose) return grid;
+  const int below = 3;
+  const std::vector<double>& z = grid.z.face;
+  return makeGrid(grid.x, grid.y, Axis::fromFaces({z.begin() + grid.k_wing - below, z.end()}),
+                  below, false, grid.wing);
 }
 
 Air thinAir() {
@@ -60,7 +67,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
   return worst / scale;
 }
 
-class Processes : public ::testing::TestWithParam<bool> {};
+class Processes : public ::testing::TestWithParam<Outer> {};
 
 TEST_P(Processes, GiveTheSameLoads) {
   NavierStokes alone(plate(GetParam()), thinAir(), 1.0, 10.0);
@@ -164,8 +171,8 @@ TEST(Slab, RefusesTooManyProcesses) {
   EXPECT_EQ(Slab(MPI_COMM_WORLD, 2 * count).planes(), 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Outer, Processes, ::testing::Values(false, true),
-                         [](const auto& info) { return info.param ? "open" : "rest"; });
+INSTANTIATE_TEST_SUITE_P(Boundary, Processes,
+                         ::testing::Values(Outer::kRest, Outer::kOpen, Outer::kRestClose));
 
 /// Process 0 flies, the others serve: what the fluid node does.
 bool sharedFlowFlies() {
@@ -175,8 +182,8 @@ bool sharedFlowFlies() {
     processes::SharedFlow::serve(MPI_COMM_WORLD);
     return true;
   }
-  NavierStokes alone(plate(false), thinAir(), 1.0, 10.0);
-  processes::SharedFlow shared(plate(false), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
+  NavierStokes alone(plate(Outer::kRest), thinAir(), 1.0, 10.0);
+  processes::SharedFlow shared(plate(Outer::kRest), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
   alone.start(flapping(0), 0.01);
   shared.start(flapping(0), 0.01);
   double worst = 0;

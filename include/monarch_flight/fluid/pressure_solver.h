@@ -40,8 +40,12 @@ class PressureSolver {
   /// In place: b in, p out; nx*ny*nz doubles, x fastest, best 64-byte aligned. Allocates nothing.
   /// Uses scratch of this object: one call at a time.
   void solve(double* b_to_p) const;
-  /// The same; adds the time of its parts to `times`.
-  void solve(double* b_to_p, KernelTimes& times) const;
+  /// The same in two parts, for who asks for the pressure at the wing of several b and for all of
+  /// it of the last one: in the planes next to the wing's p, up to a constant where the outer faces
+  /// are closed, in the other planes still b ...
+  void solveAtWing(double* b_to_p, KernelTimes& times) const;
+  /// ... and p everywhere. Both add the time of their parts to `times`.
+  void complete(double* p, KernelTimes& times) const;
   /// y = A p, the operator above, for checks (any p).
   void apply(const double* p, double* y) const;
 

@@ -142,7 +142,7 @@ class Check:
         """What needs nodes, and a display."""
         if "true" in (self.values.get("in_process"), self.values.get("plan")):
             for name, value in (("rviz", "true"), *((name, None) for name in node_keys.ALL),
-                                ("guidance", "commands"), ("paused", "true")):
+                                ("guidance", "commands"), ("paused", "true"), ("launch_prefix", None)):
                 if name in self.values and value in (None, self.values[name]):
                     self.fault(name, "needs the nodes, so in_process:=false")
             self.values["rviz"] = "false"

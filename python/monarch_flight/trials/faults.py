@@ -155,23 +155,24 @@ class Bench:
             self.hashes[air] = summary(folder)["state_sha256"]
         return self.hashes[air]
 
-    def environment(self, fault, folder):
-        env = {} if flows(fault.air) else {"MONARCH_ANSWER_DELAY_MS": "8"}
+    def prefix(self, fault, folder):
+        """Keys that start the nodes with a clock of their own, where the fault needs one."""
         if "clock" in fault.environment:
             with open(folder + ".clock", "w") as f:
                 f.write("0")
             library = os.path.join(self.work, "shifted_clock.so")
             if not os.path.exists(library):
                 subprocess.run(["cc", "-O1", "-shared", "-fPIC", "-o", library, SHIFTED_CLOCK, "-ldl"], check=True)
-            env["MONARCH_NODE_PREFIX"] = "env LD_PRELOAD=%s CLOCK_SHIFT_FILE=%s.clock" % (library, folder)
-        return env
+            return ("launch_prefix:=env LD_PRELOAD=%s CLOCK_SHIFT_FILE=%s.clock" % (library, folder),)
+        return ()
 
     def trial(self, fault):
         self.count += 1
         self.folder = folder = os.path.join(self.work, "flight_%d" % self.count)
         result = {"good": False, "unharmed": False, "end_s": None, "again": None, "said": "", "verdict": ""}
         expected = self.undisturbed(fault.air)
-        flight = Flight(folder, (*self.keys(fault.air), "out:=" + folder), self.environment(fault, folder))
+        slow = {} if flows(fault.air) else {"MONARCH_ANSWER_DELAY_MS": "8"}
+        flight = Flight(folder, (*self.keys(fault.air), "out:=" + folder, *self.prefix(fault, folder)), slow)
         last = 70 if flows(fault.air) else 190
         flight.wait_for_step(self.random.randint(2 * EVERY + 2, last - 10))
         time.sleep(self.random.uniform(0.0, 0.02))

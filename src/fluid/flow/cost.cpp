@@ -16,9 +16,10 @@ constexpr double kFiner = 1.25;       // where that does not resolve the wing
 constexpr int kSteps = 5;             // that are timed, the best of them counts
 
 // Measured, docs/performance.md ("Cost model").
-constexpr double kBytesPerCell = 170;        // 19 fields, ghosts and padding
+constexpr double kBytesPerCell = 178;        // 20 fields, ghosts and padding
 constexpr double kCheckpointPerCell = 241;   // seven fields with their rims, three times over
 constexpr double kBytesBeside = 45e6;        // program and libraries
+constexpr double kInverseShare = 0.6;        // of n^2 numbers, by tiles of the triangle
 constexpr double kSetupRate = 2.5e10;        // n^3 a second: assembly and inverse
 constexpr double kCapacitanceRate = 1.0e10;  // bytes a second of the inverse, half of it read
 constexpr double kChainShare = 0.20;         // of a step's time in chains along z
@@ -68,7 +69,7 @@ double flowMemory(const Grid& grid, int processes, int here) {
   // Processes that touch the wing's plane hold its inverse; each stores two planes of neighbours.
   const double holders = std::min(here, 2);
   return kBytesPerCell * (static_cast<double>(grid.cells()) / processes + 3 * plane) * here +
-         8 * n * n * holders + kBytesBeside * here;
+         kInverseShare * 8 * n * n * holders + kBytesBeside * here;
 }
 
 double checkpointMemory(const Grid& grid) {

@@ -28,9 +28,8 @@ void NavierStokes::fillPhiHalo() {
   if (!slab_.atBottom()) slab_.receiveFromBelow(phi() - plane, plane);
 }
 
-/// Outer faces and ghosts of a field resolved in `frame`, of a grid at `place` at time t.
-void NavierStokes::fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isometry3d& place,
-                                double t, Velocity& v) const {
+/// Outer faces and ghosts of a field in the predicted axes, of a grid at `place` at the new time.
+void NavierStokes::fillFarField(const Eigen::Isometry3d& place, Velocity& v) const {
   if (!known_ && !grid_.open) return;  // air at rest: what the fields were made with
   if (grid_.open) {
     fillOuter(grid_, layout_, v);
@@ -39,18 +38,27 @@ void NavierStokes::fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isome
   fillOuter(
       grid_, layout_,
       [&](const Eigen::Vector3d& r) -> Eigen::Vector3d {
-        return frame.transpose() * known_(place * r, t);
+        return predicted_.linear().transpose() * known_(place * r, (steps_ + 1) * dt_);
       },
       v);
 }
 
-void NavierStokes::turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame) {
-  const Eigen::Matrix3d Q = frame.transpose() * level.frame;
+/// From the place where the grid is, by its velocities of two levels.
+void NavierStokes::predictPlace() {
+  const GridVelocity &n = level_n_.grid, &m = level_m_.grid;
+  const Eigen::Isometry3d& place = level_n_.place;
+  predicted_.linear() = place.linear() * expSO3(dt_ * (1.5 * n.omega - 0.5 * m.omega));
+  predicted_.translation() = place.translation() + dt_ * (1.5 * place.linear() * n.V -
+                                                          0.5 * level_m_.place.linear() * m.V);
+}
+
+void NavierStokes::turnLevel(Velocity& v, Level& level) {
+  const Eigen::Matrix3d Q = predicted_.linear().transpose() * level.axes;
   rotateField(layout_, team_, Q, v, v_star_);
   std::swap(v, v_star_);
-  level.frame = frame;
+  level.axes = predicted_.linear();
   level.wall = rotated(level.wall, Q);
-  fillFarField(frame, predicted_place_, (steps_ + 1) * dt_, v);  // the increment there is 0
+  fillFarField(predicted_, v);  // the increment there is 0
   fillWing(grid_, layout_, level.wall, v);
   fillHalo(layout_, slab_, v);
 }
@@ -109,14 +117,9 @@ void NavierStokes::prepareStep() {
   const GridVelocity& m = level_m_.grid;
   LapTimer timer(report_.kernel_s);
   if (!prepared_) {
-    const Eigen::Vector3d omega_mid = 1.5 * n.omega - 0.5 * m.omega;
-    predicted_frame_ = level_n_.frame * expSO3(dt_ * omega_mid);
-    predicted_place_.linear() = predicted_frame_;
-    predicted_place_.translation() =
-        level_n_.place.translation() +
-        dt_ * (1.5 * level_n_.place.linear() * n.V - 0.5 * level_m_.place.linear() * m.V);
-    turnLevel(vn_, level_n_, predicted_frame_);
-    turnLevel(vm_, level_m_, predicted_frame_);
+    predictPlace();
+    turnLevel(vn_, level_n_);
+    turnLevel(vm_, level_m_);
     prepared_ = true;
   }
   const bool second = steps_ > 0;
@@ -138,19 +141,19 @@ void NavierStokes::prepareStep() {
   timer.lap(Kernel::kMomentumXY);
 }
 
-/// One evaluation: (1) momentum with the wall's new velocity, (2) pressure, (3) loads.
+/// One evaluation: (1) momentum with the wall's new velocity, (2) pressure at the wing, (3) loads.
 Loads NavierStokes::evaluate(const WingMotion& next) {
   if (!(dt_ > 0)) throw std::logic_error("NavierStokes::evaluate before start");
   evaluated_ = false;  // until it is done: what throws leaves nothing to commit
   if (step_.dt == 0) prepareStep();
   LapTimer timer(report_.kernel_s);
-  next_.frame = next.R_IW;
+  next_.axes = predicted_.linear();
   next_.grid = gridVelocity(next);
   next_.wall = wallVelocity(next_.grid);
   next_.place = placeOf(next);
   momentum_.finish(vn_, convecting_, combined(1, next_.wall, -1, level_n_.wall, 0, next_.wall),
                    v_star_);
-  fillFarField(predicted_frame_, next_.place, (steps_ + 1) * dt_, v_star_);
+  fillFarField(next_.place, v_star_);
   fillWing(grid_, layout_, next_.wall, v_star_);
 
   fillHalo(layout_, slab_, v_star_.c[2]);
@@ -158,7 +161,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
 
   netOutflow(grid_, layout_, team_, v_star_, air_.rho / step_.a, phi());
   timer.lap(Kernel::kOutflow);
-  pressure_.solve(phi(), report_.kernel_s);
+  pressure_.solveAtWing(phi(), report_.kernel_s);
   timer.restart();
 
   acceleration_ =
@@ -181,6 +184,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
 
 void NavierStokes::commit() {
   if (!evaluated_) throw std::logic_error("NavierStokes::commit without evaluate");
+  pressure_.complete(phi(), report_.kernel_s);
   LapTimer timer(report_.kernel_s);
   fillPhiHalo();
   subtractGradient(grid_, layout_, team_, phi(), step_.a / air_.rho, v_star_);

@@ -15,13 +15,14 @@ namespace monarch_flight::fluid {
 /// time t since the start.
 using KnownFlow = std::function<Eigen::Vector3d(const Eigen::Vector3d& r_I, double t)>;
 
-/// One stored time level: the field's axes, the grid's velocity and the wall's, in those axes.
+/// One stored time level. The field's components are those in `axes`: the wing's axes as they were
+/// predicted for the step, O(dt^3) beside where the wing then was. That the next step turns from
+/// these axes, not from the wing's, keeps the air from turning with the error of the prediction.
 struct Level {
-  Eigen::Matrix3d frame =
-      Eigen::Matrix3d::Identity();  ///< takes the field's components to inertial ones
-  GridVelocity grid;                ///< of the grid at that time, in its own axes then
-  WallVelocity wall;                ///< resolved in `frame`
-  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();  ///< of the grid then (known flows)
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();       ///< components to inertial ones
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();  ///< of the grid at that time
+  GridVelocity grid;  ///< of the grid at that time, in its own axes then
+  WallVelocity wall;  ///< resolved in `axes`
 };
 
 /// Incompressible flow on a grid that is fixed to the wing. Unknown: the absolute velocity
@@ -53,6 +54,7 @@ class NavierStokes : public FluidModel {
   const Layout& layout() const { return layout_; }
   const Slab& slab() const { return slab_; }
   const Velocity& velocity() const { return requireCommitted(), vn_; }  ///< committed level n
+  const Eigen::Matrix3d& axes() const { return level_n_.axes; }  ///< of velocity(): to inertial
   const Array& pressure() const { return p_; }  ///< committed, cell (i, j, k) at face (i, j, k)
   /// Replaces the air at rest by a known flow: levels 0 and -1 and, from then on, the values on a
   /// closed outer boundary. For verification: it is not part of the saved state. After start().
@@ -60,13 +62,13 @@ class NavierStokes : public FluidModel {
 
  private:
   void prepareStep();
-  void turnLevel(Velocity& v, Level& level, const Eigen::Matrix3d& frame);
+  void predictPlace();
+  void turnLevel(Velocity& v, Level& level);
   void convectingField(const GridVelocity& grid_velocity);
   double courant();
   Matrix6d computeAddedMass();
   void potentialStart();
-  void fillFarField(const Eigen::Matrix3d& frame, const Eigen::Isometry3d& place, double t,
-                    Velocity& v) const;
+  void fillFarField(const Eigen::Isometry3d& place, Velocity& v) const;
 
   Eigen::Vector3d velocityAt(int i, int j, int k) const;  ///< committed, at the cell's centre
   Eigen::Matrix3d gradientAt(int i, int j, int k) const;
@@ -105,8 +107,7 @@ class NavierStokes : public FluidModel {
   std::ptrdiff_t phi_start_;
   Array row_;    ///< scratch of the loads
   Array rates_;  ///< of the planes: largest Courant number by dt
-  Eigen::Matrix3d predicted_frame_;
-  Eigen::Isometry3d predicted_place_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d predicted_ = Eigen::Isometry3d::Identity();  ///< place of the grid
   Level next_;
   WallVelocity acceleration_;
   bool evaluated_ = false;

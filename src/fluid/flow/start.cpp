@@ -63,7 +63,7 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   }
   std::fill(p_.begin(), p_.end(), 0.0);
   committed_acceleration_ = {};
-  level_n_.frame = motion.R_IW;
+  level_n_.axes = motion.R_IW;
   level_n_.grid = gridVelocity(motion);
   level_n_.wall = wallVelocity(level_n_.grid);
   level_n_.place = placeOf(motion);
@@ -73,8 +73,8 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   const Eigen::Vector3d V_dot = motion.a_W - motion.omega_W.cross(level_n_.grid.V);
   level_m_.grid.V -= dt * V_dot;
   level_m_.grid.omega -= dt * motion.alpha_W;
-  level_m_.place.linear() = level_n_.frame * expSO3(-dt * motion.omega_W);
-  level_m_.place.translation() -= dt * (level_n_.frame * level_n_.grid.V);
+  level_m_.place.linear() = level_n_.axes * expSO3(-dt * motion.omega_W);
+  level_m_.place.translation() -= dt * (level_n_.axes * level_n_.grid.V);
   potentialStart();
   vm_ = vn_;
 }
@@ -99,7 +99,7 @@ void NavierStokes::setKnownFlow(KnownFlow flow) {
         for (int j = -1; j <= layout_.ny; ++j) {
           for (int i = -1; i <= layout_.nx; ++i) {
             const Eigen::Vector3d r_I = place * pointOf(grid_, c, i, j, k);
-            v->c[c][layout_.at(i, j, k)] = level_n_.frame.col(c).dot(known_(r_I, now ? 0 : -dt_));
+            v->c[c][layout_.at(i, j, k)] = level_n_.axes.col(c).dot(known_(r_I, now ? 0 : -dt_));
           }
         }
       }

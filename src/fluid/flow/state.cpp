@@ -47,9 +47,15 @@ class Reader {
   std::size_t at_ = 0;
 };
 
+template <class Stream, class Place>
+void exchangePlace(Stream& s, Place& place) {
+  for (int i = 0; i < 16; ++i) s(place.matrix().data()[i]);
+}
+
 template <class Stream, class L>
 void exchangeLevel(Stream& s, L& level) {
-  for (int i = 0; i < 9; ++i) s(level.frame.data()[i]);
+  for (int i = 0; i < 9; ++i) s(level.axes.data()[i]);
+  exchangePlace(s, level.place);
   for (int i = 0; i < 3; ++i) s(level.grid.V[i]);
   for (int i = 0; i < 3; ++i) s(level.grid.omega[i]);
   s(level.wall);
@@ -66,7 +72,7 @@ std::vector<char> NavierStokes::save() const {
   w(dt_), w(steps_), w(prepared_), w(report_.divergence);
   exchangeLevel(w, level_n_);
   exchangeLevel(w, level_m_);
-  for (int i = 0; i < 9; ++i) w(predicted_frame_.data()[i]);
+  exchangePlace(w, predicted_);
   for (int c = 0; c < 3; ++c) w(vn_.c[c]), w(vm_.c[c]);
   w(p_), w(committed_acceleration_);
   const long size = static_cast<long>(mine.size());
@@ -106,7 +112,7 @@ void NavierStokes::restore(const std::vector<char>& bytes) {
   r(dt_), r(steps_), r(prepared_), r(report_.divergence);
   exchangeLevel(r, level_n_);
   exchangeLevel(r, level_m_);
-  for (int i = 0; i < 9; ++i) r(predicted_frame_.data()[i]);
+  exchangePlace(r, predicted_);
   for (int c = 0; c < 3; ++c) r(vn_.c[c]), r(vm_.c[c]);
   r(p_), r(committed_acceleration_);
   for (Array& a : v_star_.c) std::fill(a.begin(), a.end(), 0.0);

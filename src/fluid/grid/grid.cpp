@@ -16,7 +16,7 @@ constexpr double kRatioAtWing = 1.08;  // largest stretching within kNearWing me
 constexpr double kNearWing = 0.3;      // [mean chords]
 constexpr double kRatioStep = 0.03;    // the ratio grows by so much from cell to cell
 constexpr long kMaxCells = 200000000;  // beyond: surely a slip in the settings
-constexpr long kMaxWingFaces = 40000;  // dense capacitance matrix: 8 n^2 bytes = 12.8 GB
+constexpr long kMaxWingFaces = 40000;  // capacitance matrix: 4.8 n^2 bytes = 7.7 GB
 constexpr double kFewestCellsAcross = 4;
 
 /// Cell widths that begin with `first`: within `near` they grow by at most kRatioAtWing, beyond it

@@ -1,33 +1,13 @@
 #include "fluid/pressure/capacitance.h"
 
-#include <lapacke.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "fluid/pressure/blas.h"
 
 namespace monarch_flight::fluid::pressure {
-namespace {
-
-/// Cholesky's factor of a positive definite matrix, in place of its lower triangle.
-void factorise(double* matrix, int n, int leading) {
-  const int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, matrix, leading);
-  if (info != 0) {
-    throw std::runtime_error("WingCapacitance: Cholesky failed at face " + std::to_string(info) +
-                             " of " + std::to_string(n));
-  }
-}
-
-void invertDefinite(double* matrix, int n, int leading) {
-  factorise(matrix, n, leading);
-  LAPACKE_dpotri(LAPACK_COL_MAJOR, 'L', n, matrix, leading);
-}
-
-}  // namespace
 
 WingCapacitance::WingCapacitance(const Grid& grid, const Slab& slab, const AxisModes& x,
                                  const AxisModes& y, const WingResponse& response,
@@ -44,11 +24,11 @@ WingCapacitance::WingCapacitance(const Grid& grid, const Slab& slab, const AxisM
   modes_x_ = x.rows(i0_, static_cast<int>(box_[0].rows()));
   modes_y_ = y.rows(j0_, static_cast<int>(box_[0].cols()));
   half_.resize(box_[0].rows(), y.n());
-  system_.setZero(root_.size(), root_.size());
-  assembleNormal(response.complement, 1.0 / grid.z.gap[grid.k_wing]);
-  assembleInPlane(response);
-  invert();
-  inverse_ = SharedSymmetric(std::move(system_), slab, grid.k_wing, team);
+  SymmetricTiles system(static_cast<int>(root_.size()), wing_faces_);
+  assembleNormal(response.complement, 1.0 / grid.z.gap[grid.k_wing], system);
+  assembleInPlane(response, system);
+  system.invert(team);
+  inverse_ = SharedSymmetric(std::move(system), slab, grid.k_wing, team);
 }
 
 void WingCapacitance::add(double conductance, double mobility) {
@@ -108,7 +88,8 @@ void WingCapacitance::findInPlaneFaces(const Grid& grid) {
 /// Row by row of the plane: S(rows j, j') = X_j diag(G(:, j')) X_j'^T with
 /// G(a, j') = sum_b phi_b(j) phi_b(j') complement(a, b), which is 1 - l g without cancellation, for
 /// sum_ab phi_ab(f) phi_ab(g) = delta_fg / area. No three-dimensional solve is needed.
-void WingCapacitance::assembleNormal(const Eigen::MatrixXd& complement, double link) {
+void WingCapacitance::assembleNormal(const Eigen::MatrixXd& complement, double link,
+                                     SymmetricTiles& system) const {
   const int nbx = static_cast<int>(box_[0].rows()), rows = static_cast<int>(box_[0].cols());
   std::vector<int> first(2 * rows + 1, 0);  // rows of the wing's faces, then of those beside it
   for (std::size_t f = 0; f < normal_.size(); ++f)
@@ -122,20 +103,25 @@ void WingCapacitance::assembleNormal(const Eigen::MatrixXd& complement, double l
           root_[f] / std::sqrt(link) * modes_x_.row(normal_[f] % nbx).transpose();
     }
   }
+  Eigen::MatrixXd block;
   for (int r = 0; r < 2 * rows; ++r) {
     if (first[r] == first[r + 1]) continue;
     const Eigen::MatrixXd g =
         complement * modes_y_.row(r % rows).asDiagonal() * modes_y_.transpose();
     for (int other = 0; other <= r; ++other) {
-      system_.block(first[r], first[other], x_rows[r].cols(), x_rows[other].cols()).noalias() =
-          x_rows[r].transpose() * (g.col(other % rows).asDiagonal() * x_rows[other]);
+      block.noalias() = x_rows[r].transpose() * (g.col(other % rows).asDiagonal() * x_rows[other]);
+      for (int c = first[other]; c < first[other + 1]; ++c) {
+        double* column = system.column(c);
+        for (int f = std::max(first[r], c); f < first[r + 1]; ++f)
+          column[f] = block(f - first[r], c - first[other]);
+      }
     }
   }
-  for (std::size_t f = 0; f < normal_.size(); ++f) system_(f, f) += list_diagonal_[f] - 1;
+  for (int f = 0; f < first[2 * rows]; ++f) system.column(f)[f] += list_diagonal_[f] - 1;
 }
 
 /// Column by column: the jumps that answer a unit source of each face.
-void WingCapacitance::assembleInPlane(const WingResponse& response) {
+void WingCapacitance::assembleInPlane(const WingResponse& response, SymmetricTiles& system) const {
   const int n = static_cast<int>(normal_.size()), nbx = static_cast<int>(box_[0].rows());
   Eigen::MatrixXd source, answer;
   for (std::size_t e = 0; e < in_plane_.size(); ++e) {
@@ -149,37 +135,9 @@ void WingCapacitance::assembleInPlane(const WingResponse& response) {
       toBox(answer.data(), box_[side]);
     }
     takeJumps();
-    const int column = n + static_cast<int>(e);
-    system_.row(column) = -root_[column] * jump_.transpose();
-    system_(column, column) += list_diagonal_[column];
-  }
-}
-
-/// In blocks S = [P, B^T; B, -D] of the wing's faces and those beside the rim, P and D positive
-/// definite. With M = D + B P^-1 B^T = L L^T and X = L^-1 B P^-1:
-/// S^-1 = [P^-1 - X^T X, .; L^-T X, -M^-1].
-void WingCapacitance::invert() {
-  const int all = static_cast<int>(root_.size()), n = wing_faces_, r = all - n;
-  double* P = system_.data();
-  double* B = P + n;
-  double* D = P + n + static_cast<std::ptrdiff_t>(n) * all;
-  invertDefinite(P, n, all);
-  if (r == 0) return;
-  Eigen::MatrixXd X(r, n), M(r, r);
-  cblas_dsymm(CblasColMajor, CblasRight, CblasLower, r, n, 1.0, P, all, B, all, 0.0, X.data(), r);
-  M = -system_.bottomRightCorner(r, r);
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, r, r, n, 1.0, X.data(), r, B, all, 1.0,
-              M.data(), r);
-  factorise(M.data(), r, r);
-  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, r, n, 1.0, M.data(),
-              r, X.data(), r);
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, n, r, -1.0, X.data(), r, 1.0, P, all);
-  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, r, n, 1.0, M.data(),
-              r, X.data(), r);
-  system_.bottomLeftCorner(r, n) = X;
-  LAPACKE_dpotri(LAPACK_COL_MAJOR, 'L', r, M.data(), r);
-  for (int c = 0; c < r; ++c) {
-    for (int q = c; q < r; ++q) D[q + static_cast<std::ptrdiff_t>(c) * all] = -M(q, c);
+    const int face = n + static_cast<int>(e);
+    for (int c = 0; c <= face; ++c) system.column(c)[face] = -root_[face] * jump_[c];
+    system.column(face)[face] += list_diagonal_[face];
   }
 }
 

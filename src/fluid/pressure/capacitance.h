@@ -38,9 +38,8 @@ class WingCapacitance {
   void findNormalFaces(const Grid& grid);
   void findInPlaneFaces(const Grid& grid);
   void add(double conductance, double mobility);
-  void assembleNormal(const Eigen::MatrixXd& complement, double link);
-  void assembleInPlane(const WingResponse& response);
-  void invert();
+  void assembleNormal(const Eigen::MatrixXd& complement, double link, SymmetricTiles& system) const;
+  void assembleInPlane(const WingResponse& response, SymmetricTiles& system) const;
   void toBox(const double* modes, Eigen::MatrixXd& box) const;
   void toModes(const Eigen::MatrixXd& box, double* modes) const;
   void takeJumps() const;
@@ -53,8 +52,7 @@ class WingCapacitance {
   std::vector<double> list_root_, list_diagonal_;
   Eigen::VectorXd root_;               ///< sqrt(c_f) [m^1/2], first of `normal_`, then `in_plane_`
   Eigen::MatrixXd modes_x_, modes_y_;  ///< modes on the box: cells x modes
-  Eigen::MatrixXd system_;             ///< S, then S^-1, lower triangle; empty once set up
-  SharedSymmetric inverse_;
+  SharedSymmetric inverse_;            ///< S^-1
   mutable Eigen::MatrixXd half_, box_[2];  ///< scratch
   mutable Eigen::VectorXd jump_, flux_;
 };

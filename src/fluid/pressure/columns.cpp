@@ -218,7 +218,6 @@ void PressureColumns::substituteHalf(double* spectrum, int half) const {
 }
 
 void PressureColumns::substitute(double* spectrum) const {
-  solveAtWing(spectrum);
   substituteHalf(spectrum, 0);
   substituteHalf(spectrum, 1);
 }

@@ -43,7 +43,9 @@ class PressureColumns {
   void wingPressures(double* down, double* up) const;
   /// r_d += down, r_u += up.
   void addSources(const double* down, const double* up) const;
-  /// Solves at the wing's plane, then back-substitution outwards.
+  /// p_d and p_u into the spectrum, where they are of this process.
+  void solveAtWing(double* spectrum) const;
+  /// Back-substitution outwards from there.
   void substitute(double* spectrum) const;
   /// The constant mode shifted to zero volume mean. Closed outer faces only.
   void centre(double* spectrum) const;
@@ -65,7 +67,6 @@ class PressureColumns {
   void takePlane(const double* spectrum, int k, double* plane) const;
   void eliminateHalf(double* spectrum, int half) const;
   void substituteHalf(double* spectrum, int half) const;
-  void solveAtWing(double* spectrum) const;
   void factor(const SpectrumBlock& q, int b, const Eigen::ArrayXd& lambda);
 
   struct Row {

@@ -71,9 +71,9 @@ PressureSolver::PressureSolver(const Grid& grid, const Slab& slab, const Team& t
 PressureSolver::~PressureSolver() = default;
 
 // 1. modes of x and y; 2. z from both ends to the wing's plane; 3. the wing's answer to the
-// pressures there (by the one or two processes that touch the plane); 4. z back outwards; 5. modes
-// to cells.
-void PressureSolver::solve(double* b_to_p, KernelTimes& times) const {
+// pressures there (by the one or two processes that touch the plane); 4. modes to cells of the two
+// planes there.
+void PressureSolver::solveAtWing(double* b_to_p, KernelTimes& times) const {
   LapTimer timer(times);
   double* spectrum = impl_->spectrum.data();
   impl_->transform.forwardNegative(b_to_p, spectrum);
@@ -90,16 +90,29 @@ void PressureSolver::solve(double* b_to_p, KernelTimes& times) const {
     impl_->columns.addSources(down, up);
   }
   timer.lap(Kernel::kCapacitance);
+  impl_->columns.solveAtWing(spectrum);
+  const Slab& slab = impl_->slab;
+  const int below = std::max(slab.k0(), impl_->grid.k_wing - 1);
+  const int above = std::min(slab.k1(), impl_->grid.k_wing + 1);
+  impl_->transform.inverse(spectrum, b_to_p, below - slab.k0(), above - slab.k0());
+  timer.lap(Kernel::kTransforms);
+}
+
+// z back outwards from the wing's plane; modes to cells.
+void PressureSolver::complete(double* p, KernelTimes& times) const {
+  LapTimer timer(times);
+  double* spectrum = impl_->spectrum.data();
   impl_->columns.substitute(spectrum);
   if (!impl_->grid.open) impl_->columns.centre(spectrum);
   timer.lap(Kernel::kColumns);
-  impl_->transform.inverse(spectrum, b_to_p);
+  impl_->transform.inverse(spectrum, p, 0, impl_->slab.planes());
   timer.lap(Kernel::kTransforms);
 }
 
 void PressureSolver::solve(double* b_to_p) const {
   KernelTimes nobody_asks{};
-  solve(b_to_p, nobody_asks);
+  solveAtWing(b_to_p, nobody_asks);
+  complete(b_to_p, nobody_asks);
 }
 
 void PressureSolver::apply(const double* p, double* y) const {

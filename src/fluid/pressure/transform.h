@@ -23,7 +23,8 @@ class PlaneTransform {
   PlaneTransform(const AxisModes& x, const AxisModes& y, int nz, const Team& team);
   const std::vector<SpectrumBlock>& blocks() const { return blocks_; }
   void forwardNegative(const double* field, double* spectrum) const;
-  void inverse(const double* spectrum, double* field) const;
+  /// Of the planes [begin, end).
+  void inverse(const double* spectrum, double* field, int begin, int end) const;
 
  private:
   /// Planes of a batch, laid out [class_x][class_y][j][plane][i]: folded by parity; half
@@ -34,7 +35,7 @@ class PlaneTransform {
   void fold(const double* field, int k0, int planes, Scratch& s) const;
   void unfold(double* field, int k0, int planes, Scratch& s) const;
   std::ptrdiff_t part(std::size_t class_x, std::size_t class_y, int planes) const;
-  int batches() const { return (nz_ + batch_ - 1) / batch_; }
+  int batches(int planes) const { return (planes + batch_ - 1) / batch_; }
 
   AxisModes x_, y_;
   int nz_, batch_;
