@@ -193,6 +193,7 @@ std::string FlapMap::caseText(const TrimPoint& point, int run_in_steps, int flap
     setInitial(edit, base_.free, s);
     run_in_steps = 0;
   }
+  edit.remove({"coupling", "prescribed_flaps"});
   edit.set({"coupling", "prescribed_steps"}, run_in_steps);
   edit.set({"time", "flaps"}, flaps + run_in_steps / static_cast<double>(per_flap_));
   return edit.text();

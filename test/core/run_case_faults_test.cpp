@@ -55,6 +55,17 @@ extra: 1
   }
 }
 
+TEST_F(CaseTest, PrescribedFlapsThatAreNone) {
+  const auto with = [&](const char* text) {
+    return faultsWith("climb", "prescribed_flaps: 1", text);
+  };
+  EXPECT_EQ(with("prescribed_flaps: 0.5"), "");
+  for (const char* bad : {"prescribed_flaps: -1", "prescribed_flaps: nan", "prescribed_flaps: [1]"})
+    expectHas(with(bad), ": must be a number of flaps from 0 to 1e6; 1 is usual");
+  expectHas(with("prescribed_flaps: 1\n  prescribed_steps: 5"),
+            "coupling/prescribed_flaps: prescribed_steps is given, too; remove one of them");
+}
+
 TEST_F(CaseTest, FilesAndNames) {
   expectHas(faults("nope"),
             "one of climb, climb_controlled, climb_fwuav, climb_printed, climb_settled, "

@@ -23,6 +23,17 @@ TEST_F(CaseTest, EveryShippedCaseLoads) {
   }
 }
 
+TEST_F(CaseTest, PrescribedFlapsFollowTheTimeStep) {
+  for (const int steps : {100, 250, 1001}) {
+    const Case c =
+        loadCase("climb_controlled", {{"steps_per_flap", std::to_string(steps)}}, CONFIG_DIR);
+    EXPECT_EQ(c.coupling.prescribed_steps, steps);
+    EXPECT_NE(c.resolved_yaml.find("prescribed_steps: " + std::to_string(steps)),
+              std::string::npos);
+    EXPECT_EQ(c.resolved_yaml.find("prescribed_flaps"), std::string::npos);
+  }
+}
+
 TEST_F(CaseTest, ClimbIsThePapersFlight) {
   const Case c = loadCase("climb_printed", {}, CONFIG_DIR);
   EXPECT_EQ(c.free.count(), 4);

@@ -35,7 +35,7 @@ class Momentum {
   Lines lines(const Velocity& vn, const Velocity& c, int component, double* reduced,
               Velocity& v_star);
   LineRange block(int component, int index) const;
-  static constexpr int kRowsZ = 4;  ///< rows of lines solved together: few enough for the cache
+  static constexpr int kRowsZ = 8;  ///< rows of lines solved together: few enough for the cache
 
   int blocks(int component) const;
   void solveBlock(Lines lines, const LineRange& range, const WallVelocity& wall_change, int thread);

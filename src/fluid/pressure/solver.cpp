@@ -2,6 +2,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "fluid/fields/field.h"
 #include "fluid/fields/slab.h"
 #include "fluid/pressure/blas.h"
 #include "fluid/pressure/capacitance.h"
@@ -43,7 +44,7 @@ struct PressureSolver::Impl {
         wing(columns.touchesWing()
                  ? std::make_unique<WingCapacitance>(g, s, x, y, columns.wingResponse(), team)
                  : nullptr),
-        spectrum(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n() * slab.planes())),
+        spectrum(static_cast<std::size_t>(x.n()) * y.n() * slab.planes()),
         down(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.n()) * y.n())),
         up(down) {}
 
@@ -55,7 +56,8 @@ struct PressureSolver::Impl {
   const PressureColumns columns;
   const int faces;
   const std::unique_ptr<const WingCapacitance> wing;  ///< only where its plane is touched
-  Eigen::VectorXd spectrum, down, up;                 // scratch
+  fluid::Array spectrum;                              // scratch
+  Eigen::VectorXd down, up;
   double setup_seconds = 0.0;
 };
 

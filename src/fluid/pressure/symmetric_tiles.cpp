@@ -23,18 +23,18 @@ SymmetricTiles::SymmetricTiles(int rows, int positive) : positive_(positive) {
   std::sort(first_.begin(), first_.end());
   first_.erase(std::unique(first_.begin(), first_.end()), first_.end());
   for (std::size_t t = 0; t + 1 < first_.size(); ++t)
-    panels_.push_back(Eigen::MatrixXd::Zero(rows - first_[t], first_[t + 1] - first_[t]));
+    panels_.emplace_back(static_cast<std::size_t>(rows - first_[t]) * (first_[t + 1] - first_[t]));
 }
 
 double* SymmetricTiles::column(int c) {
   const auto after = std::upper_bound(first_.begin(), first_.end(), c);
   const int t = static_cast<int>(after - first_.begin()) - 1;
-  return panels_[t].col(c - first_[t]).data() - first_[t];
+  return panels_[t].data() + static_cast<std::ptrdiff_t>(c - first_[t]) * leading(t) - first_[t];
 }
 
 void SymmetricTiles::keep(int begin, int end) {
   for (int t = 0; t < columns(); ++t) {
-    if (t < begin || t >= end) panels_[t].resize(0, 0);
+    if (t < begin || t >= end) Array().swap(panels_[t]);
   }
 }
 
@@ -46,7 +46,9 @@ void SymmetricTiles::invert(const Team& team) {
 
 void SymmetricTiles::factorise(const Team& team) {
   for (int k = 0; k < columns(); ++k) {
-    panels_[k] *= sign(k);
+    if (sign(k) < 0) {
+      for (double& entry : panels_[k]) entry = -entry;
+    }
     const int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', width(k), tile(k, k), leading(k));
     if (info != 0) {
       throw std::runtime_error("SymmetricTiles: not quasi-definite at row " +
@@ -114,7 +116,11 @@ void SymmetricTiles::squareFactor(const Team& team) {
       addBelow(i, j);
     });
     LAPACKE_dlauum(LAPACK_COL_MAJOR, 'L', width(i), tile(i, i), leading(i));
-    if (sign(i) < 0) panels_[i].topRows(width(i)) *= -1.0;
+    if (sign(i) < 0) {
+      for (int c = 0; c < width(i); ++c)
+        cblas_dscal(width(i) - c, -1.0,
+                    &tile(i, i)[c + static_cast<std::ptrdiff_t>(c) * leading(i)], 1);
+    }
     addBelow(i, i);
   }
 }

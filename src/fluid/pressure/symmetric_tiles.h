@@ -1,7 +1,7 @@
 #pragma once
-#include <Eigen/Dense>
 #include <vector>
 
+#include "fluid/fields/field.h"
 #include "fluid/fields/team.h"
 
 namespace monarch_flight::fluid::pressure {
@@ -46,7 +46,7 @@ class SymmetricTiles {
 
   std::vector<int> first_;  ///< of the tiles; then the number of rows
   int positive_ = 0;
-  std::vector<Eigen::MatrixXd> panels_;  ///< columns of tiles
+  std::vector<Array> panels_;  ///< columns of tiles
 };
 
 }  // namespace monarch_flight::fluid::pressure

@@ -1,6 +1,7 @@
 #include "run/case/sources.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <vector>
 
@@ -141,6 +142,28 @@ void applyOverrides(YAML::Node root, const CaseOverrides& overrides, const std::
   }
 }
 
+/// coupling/prescribed_flaps as steps: whoever reads the case later finds these alone.
+void countPrescribedSteps(YAML::Node root, const YAML::Node& given, Faults& faults) {
+  YAML::Node coupling = get(root, "coupling");
+  const YAML::Node flaps = get(coupling, "prescribed_flaps");
+  if (!flaps.IsDefined()) return;
+  const std::string where = "coupling/prescribed_flaps";
+  const YAML::Node steps = get(get(root, "time"), "steps_per_flap");
+  double number = 0.0;
+  int per_flap = 0;
+  if (get(get(given, "coupling"), "prescribed_steps").IsDefined()) {
+    faults.add(where + ": prescribed_steps is given, too; remove one of them");
+  } else if (!YAML::convert<double>::decode(flaps, number) || !(number >= 0.0 && number <= 1e6)) {
+    faults.add(where + (flaps.IsScalar() ? " = " + flaps.Scalar() : "") +
+               ": must be a number of flaps from 0 to 1e6; 1 is usual");
+  } else if (!steps.IsDefined() || !YAML::convert<int>::decode(steps, per_flap)) {
+    faults.add(where + ": needs time/steps_per_flap; give prescribed_steps instead");
+  } else {
+    coupling["prescribed_steps"] = std::to_string(std::lround(number * per_flap));
+  }
+  coupling.remove("prescribed_flaps");
+}
+
 }  // namespace
 
 YAML::Node overlaid(const YAML::Node& base, const YAML::Node& top, bool types) {
@@ -184,6 +207,7 @@ YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,
   layBelow(root, "insect", "preset", ".yaml", config_dir, faults);
   layBelow(root, "motion", "series", "_kinematics.yaml", config_dir, faults);
   applyOverrides(root, overrides, config_dir, faults);
+  countPrescribedSteps(root, given, faults);
   const auto file = overrides.find("guidance_file");
   const YAML::Node type = get(get(root, "guidance"), "type");
   if (file != overrides.end() && !(type.IsDefined() && type.Scalar() == "replay")) {
