@@ -67,7 +67,7 @@ class Key:
         if self.type == "count":
             return bool(re.fullmatch("[0-9]{1,18}", value)) and self.from_ <= int(value) and (
                 self.to is None or int(value) <= self.to)
-        if self.type == "program":
+        if self.type in ("program", "machine"):
             return bool(re.fullmatch(r"[A-Za-z0-9_.-]+", value))
         if self.type == "package":
             return bool(re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", value))

@@ -27,7 +27,6 @@ Guidance may have commit(request), and `lost`, true once it has given up.
 import hashlib
 import hmac
 import os
-import signal
 import threading
 import time
 
@@ -36,7 +35,7 @@ import yaml
 from monarch_flight.mirror import FluidOfWing
 from monarch_flight.msg import (CouplingKey, Hello, ParticipantReply, ParticipantRequest,
                                 WingbeatCommand)
-from monarch_flight.solver_start import FAILED, Coordinator, NoFlight, begin, one_line
+from monarch_flight.solver_start import FAILED, Coordinator, NoFlight, begin, end_quietly, one_line
 from monarch_flight.solver_token import SEAL, seal_of, serialized, token_of_run
 from std_msgs.msg import String
 
@@ -229,7 +228,7 @@ class SolverNode:
             self.let_coordinator_leave(10)
             return 130
         finally:  # roslaunch interrupts what is still there; the interpreter is about to leave
-            signal.signal(signal.SIGINT, signal.SIG_IGN)
+            end_quietly()
 
     def wait_for_the_end(self, limit=60.0):
         coordinator, end = Coordinator(), time.monotonic() + limit

@@ -1,6 +1,7 @@
 """How a solver of one's own (solver_node) begins: its place on the master, and what it does where there is no flight."""
 import contextlib
 import os
+import signal
 import sys
 import time
 
@@ -58,14 +59,21 @@ def tell_early_end(code):
         pass  # the master is gone
 
 
+def end_quietly():
+    """Of an interrupt from now on, as roslaunch sends it to what is still there, the interpreter would make a traceback."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
 @contextlib.contextmanager
 def one_line(role, interrupted=()):
     """Ends the program with one line, where this node does not fly; and without one when it is `interrupted`."""
     try:
         yield
     except interrupted:
+        end_quietly()
         sys.exit(130)
     except NoFlight as why:
+        end_quietly()
         print("%s: %s" % (role, why), file=sys.stderr, flush=True)
         tell_early_end(why.code)
         sys.exit(why.code)

@@ -52,7 +52,8 @@ TEST_F(OutputSize, OfABagIsEstimatedWithinAFactorOfTwo) {
   };
   expectBag(quick("climb_printed", {{"flaps", "1"}}), 632945, "motion");
   expectBag(quick("climb_printed", {{"flaps", "0.1"}}), 105690, "short");
-  expectBag(quick("climb_controlled", {{"flaps", "4"}}), 2529362, "controlled");
+  expectBag(quick("climb_controlled", {{"flaps", "4"}, {"steps_per_flap", "500"}}), 2529362,
+            "controlled");
   expectBag(quick("climb_turning", {{"flaps", "4"}}), 3380795, "turning");
   expectBag(
       loadCase("climb_printed", {{"fluid", "navier_stokes"}, {"grid", "preview"}, {"flaps", "0.6"}},

@@ -16,7 +16,6 @@ class ControlledGust(flying.FlightTest):
             case = yaml.safe_load(f)
         case["fluid"]["wind"] = {"gusts": [
             {"kind": "place", "start": 0.15, "length": 0.4, "amplitude": [-0.2, 0, 0.1]}]}
-        case["coupling"]["prescribed_steps"] = FLAP
         path = os.path.join(self.folder, "gust.yaml")
         with open(path, "w") as f:
             yaml.safe_dump(case, f)

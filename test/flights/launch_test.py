@@ -51,13 +51,13 @@ class Launch(flying.FlightTest):
         """A prefix starts every node; a machine is one that the launch file declares."""
         starter = os.path.join(self.folder, "starter")
         with open(starter, "w", encoding="utf-8") as file:
-            file.write('#!/bin/sh\necho started $(basename "$1")\nexec "$@"\n')
+            file.write('#!/bin/sh\necho PREFIXED $(basename "$1")\nexec "$@"\n')
         os.chmod(starter, 0o755)
         machine = '<machine name="near" address="localhost" env-loader="/usr/bin/env"/>'
         more = f'<arg name="launch_prefix" value="{starter}"/><arg name="machine" value="%s"/>'
         output = self.launched(machine + include(FLIGHT, self.out("one"), more % "near"))
         self.check("one", output, "climb_controlled")
-        self.assertEqual(sorted(re.findall("started (.*)", output)), ["coordinator", "flight", "fluid", "wing"])
+        self.assertEqual(sorted(re.findall("PREFIXED (.*)", output)), ["coordinator", "flight", "fluid", "wing"])
         self.assertIn("unknown machine [far]", self.launched(machine + include(FLIGHT, self.out("two"), more % "far")))
         self.assertFalse(os.path.exists(self.out("two")))
 

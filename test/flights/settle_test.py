@@ -10,7 +10,7 @@ import flying
 
 KEYS = ("fluid:=quasi_steady", "in_process:=true", "record:=false")
 WIDE = ("flaps:=2", "repeat:=0.5", "angle:=0.5", "relative:=0.02")
-STEPS = 500
+STEPS = 250
 STATE = ("vx", "vz", "theta_B", "theta_B_dot", "theta_R", "theta_R_dot")
 
 

@@ -14,10 +14,10 @@ from monarch_flight.command import main  # noqa: E402
 
 TABLE = keys.run_keys()
 WRONG = dict(choice=("", "water"), truth=("yes", "True", "1"), count=("-1", "0.5", "two", "1e1", "+1"),
-             number=("0", "-1", "nan", "inf", "1e", "e1", "1_0", "0e5", "1e999"), program=("a b", "../x", ""), package=("a/b", "", "1a"),
+             number=("0", "-1", "nan", "inf", "1e", "e1", "1_0", "0e5", "1e999"), program=("a b", "../x", ""), package=("a/b", "", "1a"), machine=("a b", ""),
              path=("",), case=("",), command=("",))
 RIGHT = dict(truth=("true", "false"), number=("1", ".1", "1e-1", "0.01e+1", "100E-3", "2."), count=("1", "10"),
-             program=("drag_fluid.py",), package=("my_package",), path=("it's a folder", "/x"), case=("climb",), command=("mpirun -np 2",))
+             program=("drag_fluid.py",), package=("my_package",), machine=("node-1.lab",), path=("it's a folder", "/x"), case=("climb",), command=("mpirun -np 2",))
 
 
 class Table(unittest.TestCase):
