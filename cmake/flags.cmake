@@ -9,10 +9,10 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 add_compile_options(-Wall -Wextra -Wpedantic -Wfloat-conversion -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # GCC 12 calls its own AVX-512 intrinsics uninitialised when Eigen inlines them (GCC bug 105593).
+  # GCC 12 calls its own AVX-512 intrinsics uninitialised wherever Eigen inlines them (GCC bug 105593).
   add_compile_options(-Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
-# Programs tell nothing of the folders in which they were built.
+# No program names the folders in which it was built (__FILE__).
 add_compile_options(-fmacro-prefix-map=${CMAKE_BINARY_DIR}=. -fmacro-prefix-map=${CMAKE_CURRENT_SOURCE_DIR}=.)
 if(MONARCH_NATIVE)
   add_compile_options(-march=native)

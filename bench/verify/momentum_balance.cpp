@@ -39,7 +39,7 @@ void compare(Report& report, double cells_per_chord, bool bounded, std::vector<d
     return flapAndPitch(oscillation(0.5, w, t), oscillation(0.4, w, t, M_PI / 2));
   };
   flow.start(motion(0), dt);
-  std::vector<Vector3d> P{motion(0).R_IW * box.momentum()};
+  std::vector<Vector3d> P{flow.axes() * box.momentum()};
   const int steps = static_cast<int>(std::lround(0.5 / dt));
   double peak = 0, largest = 0, sum = 0;
   int count = 0;
@@ -49,8 +49,8 @@ void compare(Report& report, double cells_per_chord, bool bounded, std::vector<d
     loads[0] = loads[1], flux[0] = flux[1];
     loads[1] = m.R_IW * flow.evaluate(m).force();
     flow.commit();
-    P.push_back(m.R_IW * box.momentum());
-    flux[1] = m.R_IW * box.inflow({m.v_W, m.omega_W});
+    P.push_back(flow.axes() * box.momentum());
+    flux[1] = flow.axes() * box.inflow({m.v_W, m.omega_W});
     if (n * dt < 0.1) continue;  // set in motion at once: the friction begins without bound
     // At the level before, whose dP/dt is a central difference.
     const Vector3d balance = flux[0] - (P[n] - P[n - 2]) / (2 * dt);

@@ -5,7 +5,7 @@ namespace monarch_flight::verify {
 
 using namespace fluid;
 
-/// Balance over the cells [low, high) of the committed field, wing axes.
+/// Balance over the cells [low, high) of the committed field, in its axes.
 class Box {
  public:
   Box(const NavierStokes& flow, const int low[3], const int high[3], double rho, double mu)

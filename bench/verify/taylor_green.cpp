@@ -50,7 +50,7 @@ std::vector<double> errors(int n, int steps, bool moving) {
           const Vector3d r(c == 0 ? axis.face[i] : axis.centre[i],
                            c == 1 ? axis.face[j] : axis.centre[j],
                            c == 2 ? axis.face[k] : axis.centre[k]);
-          const Vector3d exact = m.R_IW.transpose() * vortices(m.r_I + m.R_IW * r, T);
+          const Vector3d exact = flow.axes().transpose() * vortices(m.r_I + m.R_IW * r, T);
           e.push_back(flow.velocity().c[c][flow.layout().at(i, j, k)] - exact[c]);
         }
   return e;

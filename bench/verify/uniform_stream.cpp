@@ -34,7 +34,7 @@ void uniformStream(Report& report) {
   for (int s = 1; s <= steps; ++s) {
     flow.evaluate(motion(s));
     flow.commit();
-    const Vector3d expected = motion(s).R_IW.transpose() * stream;
+    const Vector3d expected = flow.axes().transpose() * stream;
     for (int k = 0; k < l.nz; ++k)
       for (int j = 0; j < l.ny; ++j)
         for (int i = 0; i < l.nx; ++i)

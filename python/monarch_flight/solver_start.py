@@ -60,7 +60,7 @@ def tell_early_end(code):
 
 
 def end_quietly():
-    """Of an interrupt from now on, as roslaunch sends it to what is still there, the interpreter would make a traceback."""
+    """Ignores SIGINT from now on: roslaunch interrupts what still runs, and a leaving interpreter would print a traceback."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
@@ -73,7 +73,7 @@ def one_line(role, interrupted=()):
         end_quietly()
         sys.exit(130)
     except NoFlight as why:
-        end_quietly()
         print("%s: %s" % (role, why), file=sys.stderr, flush=True)
         tell_early_end(why.code)
+        end_quietly()
         sys.exit(why.code)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fluid/flow/flow.h"
+#include "monarch_flight/math/rotation.h"
 
 namespace monarch_flight::fluid {
 namespace {
@@ -9,11 +10,13 @@ namespace {
 using Eigen::Vector3d;
 
 WingMotion flapping(double t) {
+  const Vector3d axis = Vector3d(0.9, -0.3, 0.2).normalized();
   WingMotion m;
+  m.R_IW = expSO3(axis * (4 * t + 10 * t * t));
+  m.omega_W = axis * (4 + 20 * t);
+  m.alpha_W = axis * 20;
   m.v_W = Vector3d(0.6, 0.05, 0.2 + 0.3 * t);
   m.a_W = Vector3d(0, 0, 0.3);
-  m.omega_W = Vector3d(4 + 20 * t, -3 * t, 1);
-  m.alpha_W = Vector3d(20, -3, 0);
   return m;
 }
 

@@ -64,6 +64,20 @@ TEST_F(CaseTest, PrescribedFlapsThatAreNone) {
     expectHas(with(bad), ": must be a number of flaps from 0 to 1e6; 1 is usual");
   expectHas(with("prescribed_flaps: 1\n  prescribed_steps: 5"),
             "coupling/prescribed_flaps: prescribed_steps is given, too; remove one of them");
+  EXPECT_EQ(with("prescribed_flaps: 1e6"), "");
+  const std::string long_start =
+      write("long.yaml",
+            "insect: {preset: monarch_paper}\ncoupling: {prescribed_flaps: 1e6}\n"
+            "time: {steps_per_flap: 5000, flaps: 1}\n");
+  expectHas(faults(long_start),
+            "coupling/prescribed_flaps = 1e6 amounts to more than 2147483647 steps");
+  for (const char* bad : {"steps_per_flap: abc", "steps_per_flap: -5"}) {
+    const std::string text = faultsWith("climb", "steps_per_flap: 500", bad);
+    expectHas(text, "time/steps_per_flap");
+    EXPECT_EQ(text.find("prescribed"), std::string::npos) << text;
+  }
+  expectHas(faultsWith("climb", "steps_per_flap: 500\n  flaps: 7", "dt: 0.0002\n  duration: 0.1"),
+            "coupling/prescribed_flaps: needs time/steps_per_flap; give prescribed_steps instead");
 }
 
 TEST_F(CaseTest, FilesAndNames) {

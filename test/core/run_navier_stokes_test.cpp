@@ -50,7 +50,7 @@ TEST(NavierStokesFlight, AReleasedFlightConvergesWithTheTimeStep) {
   const Eigen::Vector4d middle = endOf(fifthOfAFlap(200));
   const Eigen::Array4d first = endOf(fifthOfAFlap(100)) - middle;
   const Eigen::Array4d second = middle - endOf(fifthOfAFlap(400));
-  const Eigen::Array4d order = (first / second).abs().log() / std::log(2.0);
+  const Eigen::Array4d order = (first / second).log() / std::log(2.0);
   EXPECT_GT(order.minCoeff(), 1.5) << order.transpose();
 }
 
@@ -61,7 +61,7 @@ TEST(NavierStokesFlight, AFailedStepIsTriedAgainFromTheFlowThatWasCommitted) {
     if (reply.key.step == 25 && reply.key.phase == Phase::kIterate && failures++ == 0)
       reply.error = "the air broke";
   });
-  const auto plain = flown(c);
+  const auto plain = flown(c);  // to the tolerance of the coupling, ten steps' worth
   EXPECT_GT(failures, 1);
   EXPECT_TRUE(disturbed[25].retried());
   EXPECT_FALSE(disturbed[26].retried());

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Launch files of other people that include ours: arguments, namespaces, strangers beside the nodes of a flight."""
+import json
 import os
 import re
 import subprocess
@@ -60,6 +61,28 @@ class Launch(flying.FlightTest):
         self.assertEqual(sorted(re.findall("PREFIXED (.*)", output)), ["coordinator", "flight", "fluid", "wing"])
         self.assertIn("unknown machine [far]", self.launched(machine + include(FLIGHT, self.out("two"), more % "far")))
         self.assertFalse(os.path.exists(self.out("two")))
+
+    def nodes(self, **arguments):
+        """{name: (machine, launch prefix)} of the nodes that flight.launch would start."""
+        words = " ".join(f"{name}:={value}" for name, value in arguments.items())
+        program = ("import json, sys, roslaunch.config, roslaunch.xmlloader as x\n"
+                   "c = roslaunch.config.load_config_default([(sys.argv[1], sys.argv[2:])], None, assign_machines=False)\n"
+                   "print(json.dumps({n.name: (n.machine_name, n.launch_prefix or '') for n in c.nodes}))")
+        line = f'source "{flying.BUILD}/devel/setup.bash" && exec /usr/bin/python3 -c "$0" "$1" {words}'
+        file = os.path.join(flying.ROOT, "launch", "flight.launch")
+        done = subprocess.run(["bash", "-c", line, program, file], env=self.environment(), check=True, text=True,
+                              stdout=subprocess.PIPE)
+        return json.loads(done.stdout.splitlines()[-1])
+
+    def test_where_nodes_run_and_what_starts_them(self):
+        nodes = self.nodes(wings="independent", guidance_node="climb_guidance.py", machine="near", fluid_machine="far",
+                           launch_prefix="nice", mpirun="env")
+        flows = ("fluid", "fluid_left")
+        for name in (*flows, "coordinator", "flight", "wing", "guidance"):
+            machine, prefix = nodes[name]
+            self.assertEqual((machine, prefix.split()), ("far", ["env", "nice"]) if name in flows else ("near", ["nice"]), name)
+        for machine, prefix in self.nodes(mpirun="env").values():
+            self.assertEqual((machine or "", prefix.replace("env", "").strip()), ("", ""))
 
     def test_a_stranger_has_parameters_in_the_same_namespace(self):
         stranger = ('<group ns="monarch_flight"><node pkg="rosout" type="rosout" name="other">'

@@ -96,6 +96,10 @@ long long sentInAStep(const Layout& l, const Slab& slab, int k_wing, long unknow
 TEST_P(Processes, SendWhatTheScalingModelSays) {
   NavierStokes flow(plate(GetParam()), thinAir(), 1.0, 10.0, MPI_COMM_WORLD);
   fly(flow, 2);
+  const int kw = flow.grid().k_wing;
+  if (flow.slab().ranks() == 2 && GetParam() != Outer::kRestClose) {
+    EXPECT_TRUE(flow.layout().k0 == kw || flow.layout().k1 == kw);  // each keeps half of its matrix
+  }
   const double dt = 0.01;
   const long long before = flow.slab().doublesSent();
   flow.evaluate(flapping(3 * dt));

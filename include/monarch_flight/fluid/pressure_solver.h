@@ -24,6 +24,7 @@ class Team;
 /// Method: fast diagonalisation in x and y (generalised eigenvectors), tridiagonal elimination in z
 /// from both ends to the wing plane, dense capacitance matrix on the faces of the wing and of its
 /// rim between elimination and back-substitution: one forward and one inverse transform a solve.
+/// b has the unit of p times metre.
 class PressureSolver {
  public:
   /// Sets BLAS to one thread for the whole process (repeatable bit for bit). Throws
@@ -40,11 +41,14 @@ class PressureSolver {
   /// In place: b in, p out; nx*ny*nz doubles, x fastest, best 64-byte aligned. Allocates nothing.
   /// Uses scratch of this object: one call at a time.
   void solve(double* b_to_p) const;
-  /// The same in two parts, for who asks for the pressure at the wing of several b and for all of
-  /// it of the last one: in the planes next to the wing's p, up to a constant where the outer faces
-  /// are closed, in the other planes still b ...
+  /// The first part of `solve`, for callers that need the pressure at the wing for several b and
+  /// the whole field for the last one only: p in the two planes of cells next to the wing's plane
+  /// (up to a constant where the outer faces are closed); b stays in the others. Costs the forward
+  /// transform. Adds the time of its parts to `times`. As `solve`: all processes call it, one call
+  /// at a time, nothing is allocated.
   void solveAtWing(double* b_to_p, KernelTimes& times) const;
-  /// ... and p everywhere. Both add the time of their parts to `times`.
+  /// The second part: p in all planes, for the b of the last `solveAtWing`. Costs the inverse
+  /// transform. Throws std::logic_error when there was none since the last solution.
   void complete(double* p, KernelTimes& times) const;
   /// y = A p, the operator above, for checks (any p).
   void apply(const double* p, double* y) const;

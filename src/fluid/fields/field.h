@@ -22,10 +22,9 @@ struct Aligned64 {
   T* allocate(std::size_t n) {
     constexpr std::size_t kHugePage = 2 << 20;
     const std::size_t alignment = n * sizeof(T) < kHugePage ? 64 : kHugePage;
-    const std::size_t bytes = (n * sizeof(T) + alignment - 1) / alignment * alignment;
-    void* p = std::aligned_alloc(alignment, bytes);
-    if (p == nullptr) throw std::bad_alloc();
-    if (alignment == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);  // only advice
+    void* p = nullptr;
+    if (posix_memalign(&p, alignment, n * sizeof(T)) != 0) throw std::bad_alloc();
+    if (alignment == kHugePage) madvise(p, n * sizeof(T), MADV_HUGEPAGE);  // only advice
     return static_cast<T*>(p);
   }
   void deallocate(T* p, std::size_t) { std::free(p); }

@@ -16,8 +16,10 @@ namespace monarch_flight::fluid {
 using KnownFlow = std::function<Eigen::Vector3d(const Eigen::Vector3d& r_I, double t)>;
 
 /// One stored time level. The field's components are those in `axes`: the wing's axes as they were
-/// predicted for the step, O(dt^3) beside where the wing then was. That the next step turns from
-/// these axes, not from the wing's, keeps the air from turning with the error of the prediction.
+/// predicted for the step, O(dt^3) beside where the wing then was. Within a step, and in pictures,
+/// they stand for the wing's own: velocities of the wall and loads have the same numbers in both.
+/// But the next step turns the field from these axes; if it turned it from the wing's, the air
+/// would turn with the error of every prediction.
 struct Level {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();       ///< components to inertial ones
   Eigen::Isometry3d place = Eigen::Isometry3d::Identity();  ///< of the grid at that time
@@ -26,7 +28,7 @@ struct Level {
 };
 
 /// Incompressible flow on a grid that is fixed to the wing. Unknown: the absolute velocity
-/// (relative to the wind), resolved in wing axes. Method: docs/fluid.md.
+/// (relative to the wind), resolved in wing axes (see Level). Method: docs/fluid.md.
 class NavierStokes : public FluidModel {
  public:
   /// On the processes of `comm` (default: this one alone); all of them call every function alike.
@@ -54,7 +56,8 @@ class NavierStokes : public FluidModel {
   const Layout& layout() const { return layout_; }
   const Slab& slab() const { return slab_; }
   const Velocity& velocity() const { return requireCommitted(), vn_; }  ///< committed level n
-  const Eigen::Matrix3d& axes() const { return level_n_.axes; }  ///< of velocity(): to inertial
+  /// Takes components of velocity() to inertial ones.
+  const Eigen::Matrix3d& axes() const { return requireCommitted(), level_n_.axes; }
   const Array& pressure() const { return p_; }  ///< committed, cell (i, j, k) at face (i, j, k)
   /// Replaces the air at rest by a known flow: levels 0 and -1 and, from then on, the values on a
   /// closed outer boundary. For verification: it is not part of the saved state. After start().
@@ -62,6 +65,8 @@ class NavierStokes : public FluidModel {
 
  private:
   void prepareStep();
+  template <class Stream, class Flow>
+  static void exchange(Stream& s, Flow& flow);  ///< the saved state
   void predictPlace();
   void turnLevel(Velocity& v, Level& level);
   void convectingField(const GridVelocity& grid_velocity);

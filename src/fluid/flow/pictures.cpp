@@ -98,7 +98,6 @@ SurfacePressure NavierStokes::surfacePressure() const {
 std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) const {
   requireCommitted();
   std::vector<VortexPoint> points;
-  const Eigen::Matrix3d to_wing = level_n_.place.linear().transpose() * level_n_.axes;
   for (int k = std::max(1, layout_.k0); k < std::min(layout_.k1, layout_.nz - 1); ++k) {
     for (int j = 1; j < layout_.ny - 1; ++j) {
       for (int i = 1; i < layout_.nx - 1; ++i) {
@@ -106,7 +105,7 @@ std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) c
         const double Q = secondInvariant(g);
         if (Q <= q_threshold) continue;
         points.push_back({float(grid_.x.centre[i]), float(grid_.y.centre[j]),
-                          float(grid_.z.centre[k]), float(Q), float((to_wing * curl(g)).y())});
+                          float(grid_.z.centre[k]), float(Q), float(curl(g).y())});
       }
     }
   }
@@ -154,13 +153,12 @@ std::shared_ptr<const FlowField> NavierStokes::flowField() const {
   const auto put = [](std::vector<float>& to, const Eigen::Vector3d& v) {
     to.insert(to.end(), {float(v.x()), float(v.y()), float(v.z())});
   };
-  const Eigen::Matrix3d to_wing = level_n_.place.linear().transpose() * level_n_.axes;
   for (int k = layout_.k0; k < layout_.k1; ++k) {
     for (int j = 0; j < layout_.ny; ++j) {
       for (int i = 0; i < layout_.nx; ++i) {
         const Eigen::Matrix3d g = gradientAt(i, j, k);
-        put(mine.velocity, to_wing * velocityAt(i, j, k));
-        put(mine.vorticity, to_wing * curl(g));
+        put(mine.velocity, velocityAt(i, j, k));
+        put(mine.vorticity, curl(g));
         mine.pressure.push_back(float(p_[layout_.at(i, j, k)]));
         mine.q.push_back(float(secondInvariant(g)));
       }

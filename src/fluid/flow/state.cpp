@@ -26,25 +26,37 @@ class Writer {
   std::vector<char>& out_;
 };
 
+class Counter {
+ public:
+  template <class T>
+  void operator()(const T&) {
+    size += sizeof(T);
+  }
+  void operator()(const Array& a) { size += a.size() * sizeof(double); }
+  std::size_t size = 0;
+};
+
+/// Of the bytes [begin, end).
 class Reader {
  public:
-  explicit Reader(const std::vector<char>& in) : in_(in) {}
+  Reader(const std::vector<char>& in, std::size_t begin, std::size_t end)
+      : in_(in), at_(begin), end_(end) {}
   template <class T>
   void operator()(T& value) {
     bytes(&value, sizeof(T));
   }
   void operator()(Array& a) { bytes(a.data(), a.size() * sizeof(double)); }
-  std::size_t left() const { return in_.size() - at_; }
-  void skip(std::size_t n) { at_ += n; }
+  std::size_t at() const { return at_; }
+  std::size_t left() const { return end_ - at_; }
 
  private:
   void bytes(void* p, std::size_t n) {
-    if (n > in_.size() - at_) throw std::invalid_argument("fluid state: too short for this grid");
+    if (n > left()) throw std::invalid_argument("fluid state: cut short");
     std::memcpy(p, in_.data() + at_, n);
     at_ += n;
   }
   const std::vector<char>& in_;
-  std::size_t at_ = 0;
+  std::size_t at_, end_;
 };
 
 template <class Stream, class Place>
@@ -63,18 +75,24 @@ void exchangeLevel(Stream& s, L& level) {
 
 }  // namespace
 
+/// All of it behind the sizes of the grid, of a flow that is written (const) or read.
+template <class Stream, class Flow>
+void NavierStokes::exchange(Stream& s, Flow& flow) {
+  s(flow.dt_), s(flow.steps_), s(flow.prepared_), s(flow.report_.divergence);
+  exchangeLevel(s, flow.level_n_);
+  exchangeLevel(s, flow.level_m_);
+  exchangePlace(s, flow.predicted_);
+  for (int c = 0; c < 3; ++c) s(flow.vn_.c[c]), s(flow.vm_.c[c]);
+  s(flow.p_), s(flow.committed_acceleration_);
+}
+
 // The state is a head (number of processes, bytes of each) and the parts of the processes, bottom
 // first.
 std::vector<char> NavierStokes::save() const {
   std::vector<char> mine;
   Writer w(mine);
-  w(layout_.nx), w(layout_.ny), w(layout_.nz), w(layout_.k0), w(layout_.k1);
-  w(dt_), w(steps_), w(prepared_), w(report_.divergence);
-  exchangeLevel(w, level_n_);
-  exchangeLevel(w, level_m_);
-  exchangePlace(w, predicted_);
-  for (int c = 0; c < 3; ++c) w(vn_.c[c]), w(vm_.c[c]);
-  w(p_), w(committed_acceleration_);
+  for (const int n : {layout_.nx, layout_.ny, layout_.nz, layout_.k0, layout_.k1}) w(n);
+  exchange(w, *this);
   const long size = static_cast<long>(mine.size());
   std::vector<char> sizes, head, all = slab_.gather(mine);
   Writer{sizes}(size);
@@ -87,34 +105,33 @@ std::vector<char> NavierStokes::save() const {
 }
 
 void NavierStokes::restore(const std::vector<char>& bytes) {
-  Reader r(bytes);
+  Reader head(bytes, 0, bytes.size());
   int ranks = 0;
-  r(ranks);
+  head(ranks);
   if (ranks != slab_.ranks()) {
     throw std::invalid_argument("fluid state: made by " + std::to_string(ranks) +
                                 " processes, not by " + std::to_string(slab_.ranks()));
   }
-  std::size_t mine = 0, total = 0;
+  std::size_t before = 0, mine = 0, total = 0;
   for (int q = 0; q < ranks; ++q) {
     long size = 0;
-    r(size);
-    if (q < slab_.rank()) mine += size;
+    head(size);
+    if (q < slab_.rank()) before += size;
+    if (q == slab_.rank()) mine = size;
     total += size;
   }
-  if (r.left() != total) throw std::invalid_argument("fluid state: cut short or too long");
-  r.skip(mine);
-  int n[5];
-  for (int& q : n) r(q);
-  if (n[0] != layout_.nx || n[1] != layout_.ny || n[2] != layout_.nz || n[3] != layout_.k0 ||
-      n[4] != layout_.k1) {
-    throw std::invalid_argument("fluid state: made on another grid");
+  if (head.left() != total) throw std::invalid_argument("fluid state: cut short or too long");
+  Reader r(bytes, head.at() + before, head.at() + before + mine);
+  for (const int n : {layout_.nx, layout_.ny, layout_.nz, layout_.k0, layout_.k1}) {
+    int stored = 0;
+    r(stored);
+    if (stored != n) throw std::invalid_argument("fluid state: made on another grid");
   }
-  r(dt_), r(steps_), r(prepared_), r(report_.divergence);
-  exchangeLevel(r, level_n_);
-  exchangeLevel(r, level_m_);
-  exchangePlace(r, predicted_);
-  for (int c = 0; c < 3; ++c) r(vn_.c[c]), r(vm_.c[c]);
-  r(p_), r(committed_acceleration_);
+  Counter expected;
+  exchange(expected, *this);
+  if (r.left() != expected.size)
+    throw std::invalid_argument("fluid state: made by another version of the flow");
+  exchange(r, *this);
   for (Array& a : v_star_.c) std::fill(a.begin(), a.end(), 0.0);
   evaluated_ = false;
   step_ = {};

@@ -9,17 +9,17 @@
 namespace monarch_flight::fluid::pressure {
 namespace {
 
-constexpr int kColumns = 16;  // at a time, so that their second use finds them in the cache
+constexpr int kCached = 16;  // columns at a time, so that their second use finds them in the cache
 
-/// y += a column of tiles, and what mirrors it, times x.
-void addColumn(const SymmetricTiles& matrix, int tile, const double* x, double* y) {
+/// y += a panel, and what mirrors it, times x.
+void addPanel(const SymmetricTiles& matrix, int tile, const double* x, double* y) {
   const int begin = matrix.first(tile), end = begin + matrix.width(tile);
   const int rows = matrix.rows() - end, leading = matrix.leading(tile);
   cblas_dsymv(CblasColMajor, CblasLower, end - begin, 1.0, matrix.tile(tile, tile), leading,
               x + begin, 1, 1.0, y + begin, 1);
   if (rows == 0) return;
-  for (int c = begin; c < end; c += kColumns) {
-    const int columns = std::min(kColumns, end - c);
+  for (int c = begin; c < end; c += kCached) {
+    const int columns = std::min(kCached, end - c);
     const double* b =
         matrix.tile(tile + 1, tile) + static_cast<std::ptrdiff_t>(c - begin) * leading;
     cblas_dgemv(CblasColMajor, CblasNoTrans, rows, columns, 1.0, b, leading, x + c, 1, 1.0, y + end,
@@ -32,7 +32,7 @@ void addColumn(const SymmetricTiles& matrix, int tile, const double* x, double* 
 }  // namespace
 
 SharedSymmetric::SharedSymmetric(SymmetricTiles matrix, const Slab& slab, int k, const Team& team)
-    : slab_(slab), team_(team), matrix_(std::move(matrix)), end_(matrix_.columns()) {
+    : slab_(slab), team_(team), matrix_(std::move(matrix)), end_(matrix_.panels()) {
   if (slab.k1() == k) part_ = Part::kBelow;
   if (slab.k0() == k) part_ = Part::kAbove;
   if (part_ != Part::kAll) {
@@ -50,7 +50,7 @@ void SharedSymmetric::multiply(const double* x, double* y) const {
   team_.each(begin_, end_, [&](int tile, int) {
     double* sum = sums_.col(tile - begin_).data();
     std::fill_n(sum, n, 0.0);
-    addColumn(matrix_, tile, x, sum);
+    addPanel(matrix_, tile, x, sum);
   });
   std::fill_n(y, n, 0.0);
   for (int column = 0; column < end_ - begin_; ++column) {

@@ -25,7 +25,7 @@ class SharedSymmetric {
   Team team_;
   Part part_ = Part::kAll;
   SymmetricTiles matrix_;
-  int begin_ = 0, end_ = 0;          ///< columns of tiles that this process keeps
+  int begin_ = 0, end_ = 0;          ///< panels that this process keeps
   mutable Eigen::MatrixXd sums_;     ///< what each of them adds
   mutable Eigen::VectorXd partner_;  ///< what the other process adds
 };

@@ -58,6 +58,7 @@ struct PressureSolver::Impl {
   const std::unique_ptr<const WingCapacitance> wing;  ///< only where its plane is touched
   fluid::Array spectrum;                              // scratch
   Eigen::VectorXd down, up;
+  bool incomplete = false;  ///< the spectrum is solved as far as the wing's plane
   double setup_seconds = 0.0;
 };
 
@@ -76,6 +77,7 @@ PressureSolver::~PressureSolver() = default;
 // pressures there (by the one or two processes that touch the plane); 4. modes to cells of the two
 // planes there.
 void PressureSolver::solveAtWing(double* b_to_p, KernelTimes& times) const {
+  impl_->incomplete = true;
   LapTimer timer(times);
   double* spectrum = impl_->spectrum.data();
   impl_->transform.forwardNegative(b_to_p, spectrum);
@@ -93,6 +95,7 @@ void PressureSolver::solveAtWing(double* b_to_p, KernelTimes& times) const {
   }
   timer.lap(Kernel::kCapacitance);
   impl_->columns.solveAtWing(spectrum);
+  timer.lap(Kernel::kColumns);
   const Slab& slab = impl_->slab;
   const int below = std::max(slab.k0(), impl_->grid.k_wing - 1);
   const int above = std::min(slab.k1(), impl_->grid.k_wing + 1);
@@ -102,6 +105,8 @@ void PressureSolver::solveAtWing(double* b_to_p, KernelTimes& times) const {
 
 // z back outwards from the wing's plane; modes to cells.
 void PressureSolver::complete(double* p, KernelTimes& times) const {
+  if (!impl_->incomplete) throw std::logic_error("PressureSolver::complete without solveAtWing");
+  impl_->incomplete = false;
   LapTimer timer(times);
   double* spectrum = impl_->spectrum.data();
   impl_->columns.substitute(spectrum);

@@ -12,14 +12,14 @@
 namespace monarch_flight::fluid::pressure {
 namespace {
 
-constexpr int kColumns = 8;  // of tiles: work for threads; the same for any number of them
+constexpr int kPanels = 8;  // work for threads; the same for any number of them
 
 }  // namespace
 
 SymmetricTiles::SymmetricTiles(int rows, int positive) : positive_(positive) {
   first_ = {0, positive, rows};
-  for (int column = 1; column < kColumns; ++column)  // of the triangle, all alike
-    first_.push_back(rows - static_cast<int>(rows * std::sqrt(1 - column / double(kColumns))));
+  for (int column = 1; column < kPanels; ++column)  // of the triangle, all alike
+    first_.push_back(rows - static_cast<int>(rows * std::sqrt(1 - column / double(kPanels))));
   std::sort(first_.begin(), first_.end());
   first_.erase(std::unique(first_.begin(), first_.end()), first_.end());
   for (std::size_t t = 0; t + 1 < first_.size(); ++t)
@@ -33,7 +33,7 @@ double* SymmetricTiles::column(int c) {
 }
 
 void SymmetricTiles::keep(int begin, int end) {
-  for (int t = 0; t < columns(); ++t) {
+  for (int t = 0; t < panels(); ++t) {
     if (t < begin || t >= end) Array().swap(panels_[t]);
   }
 }
@@ -45,23 +45,24 @@ void SymmetricTiles::invert(const Team& team) {
 }
 
 void SymmetricTiles::factorise(const Team& team) {
-  for (int k = 0; k < columns(); ++k) {
+  for (int k = 0; k < panels(); ++k) {
     if (sign(k) < 0) {
       for (double& entry : panels_[k]) entry = -entry;
     }
     const int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', width(k), tile(k, k), leading(k));
-    if (info != 0) {
+    if (info < 0) throw std::runtime_error("SymmetricTiles: an entry is not finite");
+    if (info > 0) {
       throw std::runtime_error("SymmetricTiles: not quasi-definite at row " +
                                std::to_string(first_[k] + info) + " of " + std::to_string(rows()));
     }
-    team.each(k + 1, columns(), [&](int i, int) {
+    team.each(k + 1, panels(), [&](int i, int) {
       cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, width(i),
                   width(k), 1.0, tile(k, k), leading(k), tile(i, k), leading(k));
     });
-    team.each(k + 1, columns(), [&](int j, int) {
+    team.each(k + 1, panels(), [&](int j, int) {
       cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, width(j), width(k), -sign(k), tile(j, k),
                   leading(k), 1.0, tile(j, j), leading(j));
-      if (j + 1 == columns()) return;
+      if (j + 1 == panels()) return;
       cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, leading(j + 1), width(j), width(k),
                   -sign(k), tile(j + 1, k), leading(k), tile(j, k), leading(k), 1.0, tile(j + 1, j),
                   leading(j));
@@ -71,15 +72,15 @@ void SymmetricTiles::factorise(const Team& team) {
 
 /// Column after column of tiles: W_ij = -W_ii (L_ij W_jj + sum of L_ik W_kj, j < k < i).
 void SymmetricTiles::invertFactor(const Team& team) {
-  for (int j = 0; j < columns(); ++j) {
-    team.each(j + 1, columns(), [&](int i, int) {
+  for (int j = 0; j < panels(); ++j) {
+    team.each(j + 1, panels(), [&](int i, int) {
       cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, width(i),
                   width(j), 1.0, tile(j, j), leading(j), tile(i, j), leading(j));
     });
-    for (int k = j + 1; k < columns(); ++k) {
+    for (int k = j + 1; k < panels(); ++k) {
       cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, width(k),
                   width(j), -1.0, tile(k, k), leading(k), tile(k, j), leading(j));
-      team.each(k + 1, columns(), [&](int i, int) {
+      team.each(k + 1, panels(), [&](int i, int) {
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, width(i), width(j), width(k), 1.0,
                     tile(i, k), leading(k), tile(k, j), leading(j), 1.0, tile(i, j), leading(j));
       });
@@ -109,7 +110,7 @@ void SymmetricTiles::addBelow(int row, int column) {
 
 /// Row after row of tiles, the one on the diagonal last: the others of its row need it.
 void SymmetricTiles::squareFactor(const Team& team) {
-  for (int i = 0; i < columns(); ++i) {
+  for (int i = 0; i < panels(); ++i) {
     team.each(0, i, [&](int j, int) {
       cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, width(i),
                   width(j), sign(i), tile(i, i), leading(i), tile(i, j), leading(j));

@@ -6,8 +6,9 @@
 
 namespace monarch_flight::fluid::pressure {
 
-/// A symmetric matrix: the tiles of its lower triangle, in columns of tiles each of which is in one
-/// piece; 0.6 of the memory of the whole square. All columns have about the same number of entries.
+/// A symmetric matrix as the tiles of its lower triangle. A panel is a column of tiles, stored in
+/// one piece, column major. All panels have about the same number of entries, but that one of them
+/// ends where the negative definite part begins. Takes 0.6 of the memory of the whole square.
 class SymmetricTiles {
  public:
   SymmetricTiles() = default;
@@ -16,10 +17,10 @@ class SymmetricTiles {
   SymmetricTiles(int rows, int positive);
 
   int rows() const { return first_.empty() ? 0 : first_.back(); }
-  int columns() const { return static_cast<int>(panels_.size()); }  ///< of tiles
-  int first(int tile) const { return first_[tile]; }                ///< row or column of a tile
+  int panels() const { return static_cast<int>(panels_.size()); }
+  int first(int tile) const { return first_[tile]; }  ///< its first row or column; tile < panels()
   int width(int tile) const { return first_[tile + 1] - first_[tile]; }
-  int leading(int tile) const { return rows() - first_[tile]; }  ///< of a column of tiles
+  int leading(int panel) const { return rows() - first_[panel]; }  ///< dimension: its rows
   /// Row and column of tiles, row >= column.
   double* tile(int row, int column) {
     return panels_[column].data() + first_[row] - first_[column];
@@ -31,9 +32,9 @@ class SymmetricTiles {
   double* column(int c);
 
   /// In place, by S = L J L^T, J the signs: S^-1 = W^T J W, W = L^-1. The same bits for any team.
-  /// Throws std::runtime_error where S is not quasi-definite.
+  /// Throws std::runtime_error where S is not quasi-definite or not finite.
   void invert(const Team& team);
-  /// Gives back the memory of the columns of tiles outside of [begin, end).
+  /// Gives back the memory of the panels outside of [begin, end).
   void keep(int begin, int end);
 
  private:
@@ -46,7 +47,7 @@ class SymmetricTiles {
 
   std::vector<int> first_;  ///< of the tiles; then the number of rows
   int positive_ = 0;
-  std::vector<Array> panels_;  ///< columns of tiles
+  std::vector<Array> panels_;
 };
 
 }  // namespace monarch_flight::fluid::pressure

@@ -139,7 +139,7 @@ void PlaneTransform::unfold(double* field, int k0, int planes, Scratch& s) const
 
 void PlaneTransform::forwardNegative(const double* field, double* spectrum) const {
   const int mx = x_.classes()[0].m();
-  team_.each(0, batches(nz_), [&](int batch, int thread) {
+  team_.each(0, (nz_ + batch_ - 1) / batch_, [&](int batch, int thread) {
     const int k0 = batch * batch_, planes = std::min(batch_, nz_ - k0);
     Scratch& s = scratch_[thread];
     fold(field, k0, planes, s);
@@ -159,8 +159,10 @@ void PlaneTransform::forwardNegative(const double* field, double* spectrum) cons
 
 void PlaneTransform::inverse(const double* spectrum, double* field, int begin, int end) const {
   const int mx = x_.classes()[0].m();
-  team_.each(0, batches(end - begin), [&](int batch, int thread) {
-    const int k0 = begin + batch * batch_, planes = std::min(batch_, end - k0);
+  if (begin >= end) return;
+  const int size = std::min(batch_, (end - begin + kFewestBatches - 1) / kFewestBatches);
+  team_.each(0, (end - begin + size - 1) / size, [&](int batch, int thread) {
+    const int k0 = begin + batch * size, planes = std::min(size, end - k0);
     Scratch& s = scratch_[thread];
     for (const SpectrumBlock& q : blocks_) {
       product(CblasNoTrans, CblasTrans, mx * planes, q.my, q.my, 1.0,

@@ -35,7 +35,6 @@ class PlaneTransform {
   void fold(const double* field, int k0, int planes, Scratch& s) const;
   void unfold(double* field, int k0, int planes, Scratch& s) const;
   std::ptrdiff_t part(std::size_t class_x, std::size_t class_y, int planes) const;
-  int batches(int planes) const { return (planes + batch_ - 1) / batch_; }
 
   AxisModes x_, y_;
   int nz_, batch_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 #include "monarch_flight/math/errors.h"
@@ -156,10 +157,16 @@ void countPrescribedSteps(YAML::Node root, const YAML::Node& given, Faults& faul
   } else if (!YAML::convert<double>::decode(flaps, number) || !(number >= 0.0 && number <= 1e6)) {
     faults.add(where + (flaps.IsScalar() ? " = " + flaps.Scalar() : "") +
                ": must be a number of flaps from 0 to 1e6; 1 is usual");
-  } else if (!steps.IsDefined() || !YAML::convert<int>::decode(steps, per_flap)) {
+  } else if (!steps.IsDefined()) {
     faults.add(where + ": needs time/steps_per_flap; give prescribed_steps instead");
-  } else {
-    coupling["prescribed_steps"] = std::to_string(std::lround(number * per_flap));
+  } else if (YAML::convert<int>::decode(steps, per_flap) &&
+             per_flap >= 1) {  // else time has a fault
+    const double count = std::round(number * per_flap);
+    if (count > std::numeric_limits<int>::max())
+      faults.add(where + " = " + flaps.Scalar() +
+                 " amounts to more than 2147483647 steps; give less");
+    else
+      coupling["prescribed_steps"] = std::to_string(static_cast<int>(count));
   }
   coupling.remove("prescribed_flaps");
 }
