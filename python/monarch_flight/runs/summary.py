@@ -62,6 +62,17 @@ def load(folder):
         return None, "%s cannot be read: %s" % (path, e)
 
 
+def size(path):
+    """Of a file, or of all files below a folder [bytes]."""
+    if not os.path.isdir(path):
+        return os.path.getsize(path)
+    return sum(os.path.getsize(os.path.join(place, name)) for place, _, names in os.walk(path) for name in names)
+
+
+def in_words(count):
+    return "%.1f MB" % (count / 1e6) if count >= 1e6 else "%.1f kB" % (count / 1e3)
+
+
 def show(folder):
     """Prints the summary of a run's folder; exit code 0 only for a complete run."""
     told, problem = load(folder)
@@ -77,7 +88,7 @@ def show(folder):
     for name, text in rows:
         print("  %-15s %s" % (name, text))
     for name in sorted(os.listdir(folder)):
-        print("  %-15s %.1f kB" % (name, os.path.getsize(os.path.join(folder, name)) / 1e3))
+        print("  %-15s %s" % (name, in_words(size(os.path.join(folder, name)))))
     if told["status"] != "complete":
         print("summary: %s: %s" % (told["status"], told["failure"]), file=sys.stderr)
         return 1
