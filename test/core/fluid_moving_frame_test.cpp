@@ -38,6 +38,19 @@ double relative(const Loads& a, const Loads& b, double scale) {
   return ((a.force() - b.force()).norm() + (a.moment() - b.moment()).norm()) / scale;
 }
 
+/// Largest deviation of a component of the air from a uniform stream.
+double strayedFrom(const NavierStokes& flow, const Vector3d& stream) {
+  const Vector3d expected = flow.axes().transpose() * stream;
+  double worst = 0;
+  const Layout& l = flow.layout();
+  for (int k = 0; k < l.nz; ++k)
+    for (int j = 0; j < l.ny; ++j)
+      for (int i = 0; i < l.nx; ++i)
+        for (int c = 0; c < 3; ++c)
+          worst = std::max(worst, std::abs(flow.velocity().c[c][l.at(i, j, k)] - expected[c]));
+  return worst;
+}
+
 TEST(NavierStokes, UniformStreamSurvivesAFullTurn) {
   NavierStokes flow(boxWithoutWing(12), thinAir(), 1.0, 100.0);
   const int steps = 150;
@@ -59,15 +72,7 @@ TEST(NavierStokes, UniformStreamSurvivesAFullTurn) {
     flow.evaluate(motion(n));
     flow.commit();
     if (n % 50 != 0) continue;
-    const Vector3d expected = flow.axes().transpose() * stream;
-    double worst = 0;
-    const Layout& l = flow.layout();
-    for (int k = 0; k < l.nz; ++k)
-      for (int j = 0; j < l.ny; ++j)
-        for (int i = 0; i < l.nx; ++i)
-          for (int c = 0; c < 3; ++c)
-            worst = std::max(worst, std::abs(flow.velocity().c[c][l.at(i, j, k)] - expected[c]));
-    EXPECT_LT(worst, 1e-10 * stream.norm()) << "step " << n;
+    EXPECT_LT(strayedFrom(flow, stream), 1e-10 * stream.norm()) << "step " << n;
   }
 }
 
@@ -84,15 +89,8 @@ double strayed(int steps, double& behind) {
   for (int n = 1; n <= steps; ++n) {
     flow.evaluate(flapping(n * dt));
     flow.commit();
-    const Eigen::Matrix3d& axes = flow.axes();
-    behind = std::max(behind, logSO3(axes.transpose() * flapping(n * dt).R_IW).norm());
-    const Vector3d expected = axes.transpose() * stream;
-    const Layout& l = flow.layout();
-    for (int k = 0; k < l.nz; ++k)
-      for (int j = 0; j < l.ny; ++j)
-        for (int i = 0; i < l.nx; ++i)
-          for (int c = 0; c < 3; ++c)
-            worst = std::max(worst, std::abs(flow.velocity().c[c][l.at(i, j, k)] - expected[c]));
+    behind = std::max(behind, logSO3(flow.axes().transpose() * flapping(n * dt).R_IW).norm());
+    worst = std::max(worst, strayedFrom(flow, stream));
   }
   return worst / stream.norm();
 }

@@ -73,8 +73,8 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   const Eigen::Vector3d V_dot = motion.a_W - motion.omega_W.cross(level_n_.grid.V);
   level_m_.grid.V -= dt * V_dot;
   level_m_.grid.omega -= dt * motion.alpha_W;
-  level_m_.place.linear() = level_n_.axes * expSO3(-dt * motion.omega_W);
-  level_m_.place.translation() -= dt * (level_n_.axes * level_n_.grid.V);
+  level_m_.place.linear() = level_n_.place.linear() * expSO3(-dt * motion.omega_W);
+  level_m_.place.translation() -= dt * (level_n_.place.linear() * level_n_.grid.V);
   potentialStart();
   vm_ = vn_;
 }
