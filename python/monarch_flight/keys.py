@@ -103,9 +103,11 @@ class Table(dict):
             if plain and not mark:
                 others.append(word)
             elif not mark or not re.fullmatch("[a-z_]+", name):
-                faults.append(f"'{word}' is not of the form key:=value")
+                meant = re.fullmatch("(--)?([a-z_]+)=(.+)", word)
+                faults.append(f"'{word}' is not of the form key:=value"
+                              + (f"; did you mean {meant[2]}:={meant[3]}?" if meant else ""))
             elif name not in self:
-                faults.append(f"unknown key '{name}'" + (nearest(name, self) or f"; known are {', '.join(self)}"))
+                faults.append(f"unknown key '{name}'" + self.instead(name))
             elif name in values:
                 faults.append(f"key '{name}' is given twice; give it once")
             else:
@@ -115,6 +117,13 @@ class Table(dict):
                 elif not self[name].accepts(value):
                     faults.append(f"{name}:={value}: must be {self[name].allowed}")
         return values, others, faults
+
+    def instead(self, name):
+        """What to give for a key that is not in the table."""
+        other = run_keys().get(name)
+        if other is not None and "launch" in other.of:
+            return f"; it is one of the launch files: roslaunch monarch_flight flight.launch {name}:=..."
+        return nearest(name, self) or f"; known are {', '.join(self)}"
 
     def help(self):
         """The keys, a paragraph each."""

@@ -181,17 +181,25 @@ class SolverNode:
 
     def compute(self, request):
         try:
-            if request.key.phase == CouplingKey.START:
-                self.checkpoints = request.checkpoints
-                return self.solver.start(self.resolved_case(), request)
-            if request.key.phase == CouplingKey.ITERATE:
-                return self.solver.iterate(request)
-            if request.key.phase == CouplingKey.COMMIT:
-                return self.solver.commit(request)
-            return self.keep(request)
+            name, reply = self.asked(request)
+            if not isinstance(reply, ParticipantReply):
+                raise TypeError("%s() of the solver must return a ParticipantReply, this is %s" % (
+                    name, type(reply).__name__))
+            return reply
         except Exception as e:  # whatever it is, the person hears of it from the coordinator
             return ParticipantReply(interface=request.interface, error="%s, step %d: %s: %s" % (
                 self.role, request.key.step, type(e).__name__, e))
+
+    def asked(self, request):
+        """(method of the solver, its answer)."""
+        if request.key.phase == CouplingKey.START:
+            self.checkpoints = request.checkpoints
+            return "start", self.solver.start(self.resolved_case(), request)
+        if request.key.phase == CouplingKey.ITERATE:
+            return "iterate", self.solver.iterate(request)
+        if request.key.phase == CouplingKey.COMMIT:
+            return "commit", self.solver.commit(request)
+        return "keep", self.keep(request)
 
     def keep(self, request):
         """CHECKPOINT and RESTORE, by `save` and `restore` (bytes) of a solver that has a state. The

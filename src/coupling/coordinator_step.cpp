@@ -155,7 +155,7 @@ Coordinator::Evaluation Coordinator::evaluate(const Interface& guess, bool want_
   if (want_operator && !(air.right.jacobian && air.left.jacobian)) {
     throw ExchangeError(
         "the fluid did not answer with its load operator, which coupling/relaxation = added_mass "
-        "needs: let it answer, or take iqn_ils");
+        "needs: let it answer, or set coupling/relaxation to iqn_ils in the case file");
   }
   out.fluid_evaluations += 1 + (want_operator ? operator_cost_ : 0);
   if (want_operator) evaluation.trial.jacobian = {*air.right.jacobian, *air.left.jacobian};

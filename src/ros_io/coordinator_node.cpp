@@ -38,6 +38,15 @@ RunParameters readParameters(const RunNames& names) {
   return runParameters(values, names.topic(""));
 }
 
+/// The launch file starts the fluid of the left wing only where it is told of it.
+void requireLeftFluid(const RunParameters& parameters, const Case& c, const RunNames& names) {
+  const bool by_launch_file = parametersOf(names.topic(kExitCodesKey)).valid();
+  if (by_launch_file && !c.mirrored && parameters.overrides.count("wings") == 0)
+    throw InputError(
+        "wings = independent in the case file, and the launch file knows of one fluid only; "
+        "give wings:=independent to roslaunch, too, or fly with monarch fly");
+}
+
 }  // namespace
 
 CoordinatorNode::CoordinatorNode(const StopFlag& stop)
@@ -47,6 +56,7 @@ CoordinatorNode::CoordinatorNode(const StopFlag& stop)
       case_(loadCase(parameters_)),
       node_(names_.space()),
       token_(names_) {
+  requireLeftFluid(parameters_, case_, names_);
   requireGuidancePlugin(case_);
   setFlowThreads(parameters_.threads);  // of the plan
   run_.id = randomRunId();

@@ -1,5 +1,6 @@
 #include "monarch_flight/ros_io/flight_control.h"
 
+#include <iostream>
 #include <limits>
 
 #include "monarch_flight/math/seconds_since.h"
@@ -52,6 +53,9 @@ FlightControl::FlightControl(const ros::NodeHandle& node, const Case& c, bool pa
                node_.advertiseService("checkpoint", &FlightControl::onCheckpointAsked, this),
                node_.advertiseService("reset", &FlightControl::onResetAsked, this)};
   spinner_.start();
+  if (paused)
+    std::cout << "held at the start: call the service " << node_.resolveName("resume") << " or "
+              << node_.resolveName("step") << " to fly" << std::endl;
 }
 
 FlightControl::~FlightControl() {

@@ -51,7 +51,7 @@ void FlightRun::tell() const {
   const Resumption& resumption = *checkpoints_.resumption();
   for (const std::string& why : resumption.refused)
     std::cout << "checkpoint not used: " << why << std::endl;
-  std::cout << "goes on behind step " << resumption.step << std::endl;
+  std::cout << "goes on after step " << resumption.step << std::endl;
   for (const std::string& change : resumption.changed)
     std::cout << "changed since then: " << change << std::endl;
 }

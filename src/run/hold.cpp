@@ -9,7 +9,7 @@ std::string RunPlace::describe() const {
         ", sub-iteration " + std::to_string(iteration - 1) + " of step " + std::to_string(step + 1);
   }
   if (ended) return "the run is over" + (failure.empty() ? ": complete" : ": " + failure);
-  return (held ? "held behind " : "flying behind ") + text;
+  return (held ? "held after " : "flying after ") + text;
 }
 
 RunPlace Hold::place() const {

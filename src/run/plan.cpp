@@ -11,6 +11,7 @@
 #include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/wing_speeds.h"
+#include "run/case/parts.h"
 
 namespace monarch_flight {
 namespace {
@@ -90,6 +91,9 @@ void planSpeeds(const Case& c, RunPlan& plan) {
   plan.courant_body = peak.root * per_speed;
   plan.courant_flow = kFlowByTip * plan.courant_tip;
   plan.courant_limit = c.grid.courant_limit;
+  if (plan.courant_flow > plan.courant_limit)
+    plan.shorter_steps =
+        case_file::shorterSteps(c, c.time.dt * plan.courant_limit / plan.courant_flow);
 }
 
 void planTime(const Case& c, long unknowns, RunPlan& plan) {
@@ -204,7 +208,8 @@ std::string describe(const RunPlan& p) {
   }
   text << "\nCourant number: wing " << p.courant_tip << ", wing root " << p.courant_body
        << "; expected in the flow " << p.courant_flow << ", limit " << p.courant_limit;
-  if (p.courant_flow > p.courant_limit) text << " - this run may end on it; take more steps a flap";
+  if (p.courant_flow > p.courant_limit)
+    text << " - this run may end on it; take " << p.shorter_steps;
   text << "\nmemory: " << bytesText(p.memory) << " of " << bytesText(p.memory_left) << " left";
   if (p.ranks_here < p.ranks) text << " here, where " << p.ranks_here << " of the processes are";
   text << '\n'

@@ -11,4 +11,7 @@ inline std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// "; did you mean 'word'?", or nothing where no word is near to `wrong`.
+std::string nearest(const std::string& wrong, const std::vector<std::string>& words);
+
 }  // namespace monarch_flight

@@ -70,7 +70,7 @@ TEST(Hold, HeldAtTheStartNothingIsFlown) {
   const RunPlace place = loop.hold.pause();
   EXPECT_TRUE(place.held);
   EXPECT_EQ(0u, place.step);
-  EXPECT_EQ("held behind step 0", place.describe());
+  EXPECT_EQ("held after step 0", place.describe());
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_EQ(0u, loop.evaluations);
   EXPECT_GT(loop.idle_calls, 3u);
@@ -86,7 +86,7 @@ TEST(Hold, StepsAndSubIterationsAreCounted) {
   place = loop.hold.subIterate();
   EXPECT_EQ(4u, place.step);
   EXPECT_EQ(1u, place.iteration);
-  EXPECT_EQ("held behind step 4, sub-iteration 0 of step 5", place.describe());
+  EXPECT_EQ("held after step 4, sub-iteration 0 of step 5", place.describe());
   loop.hold.subIterate();
   place = loop.hold.subIterate();
   EXPECT_EQ(5u, place.step);
@@ -165,7 +165,7 @@ TEST(Hold, ACheckpointLeavesAHeldRunHeld) {
   loop.hold.steps(4);
   loop.hold.subIterate();  // in the middle of step 5
   const RunPlace place = loop.hold.checkpoint();
-  EXPECT_EQ("held behind step 4, sub-iteration 0 of step 5", place.describe());
+  EXPECT_EQ("held after step 4, sub-iteration 0 of step 5", place.describe());
   EXPECT_EQ(4u, loop.kept);
   EXPECT_EQ(1u, loop.checkpoints);
   EXPECT_TRUE(loop.hold.pause().held);

@@ -19,7 +19,7 @@ class CommandsReset(leading.Leader):
         command(**{commanded: 0.2})  # waits for the next flap, on which the reset comes first
         self.good("step", 5)
         command(deviation_mean=0.05, at_once=True)  # no step takes it
-        self.assertEqual(self.good("reset"), "held behind step 0")
+        self.assertEqual(self.good("reset"), "held after step 0")
         self.good("step", LED)  # over the beginning of a flap
         command(**{commanded: -0.1}, at_once=True)
         self.good("resume")

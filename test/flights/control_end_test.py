@@ -20,7 +20,7 @@ class ControlEnd(leading.Leader):
     def begin(self, name):
         process = self.start(*KEYS, "out:=" + self.out(name), ROS_MASTER_URI=self.master,
                              ROS_HOSTNAME="localhost")
-        self.assertEqual(self.good("pause"), "held behind step 0")
+        self.assertEqual(self.good("pause"), "held after step 0")
         return process
 
     def check_end(self, process, name):

@@ -36,7 +36,7 @@ class Control(leading.Leader):
     def test_every_service_and_the_action(self):
         process = self.start(*KEYS, "paused:=true", "out:=" + self.out(),
                              ROS_MASTER_URI=self.master, ROS_HOSTNAME="localhost")
-        self.assertEqual(self.good("pause"), "held behind step 0")
+        self.assertEqual(self.good("pause"), "held after step 0")
         listener = Listener()
         self.wait_for(lambda: listener.clock and listener.stamps, 10, "the latched clock and pose")
         self.check_single_steps(listener)
@@ -49,13 +49,13 @@ class Control(leading.Leader):
         self.check_same_flight()
 
     def check_single_steps(self, listener):
-        self.assertIn("held behind step 12", self.good("step", 12))
+        self.assertIn("held after step 12", self.good("step", 12))
         self.wait_for(lambda: listener.steps[-1:] == [12], 10, "step 12")
         self.assertEqual(listener.steps, list(range(1, 13)))
         self.assertEqual(self.good("sub_iterate"),
-                         "held behind step 12, sub-iteration 0 of step 13")
+                         "held after step 12, sub-iteration 0 of step 13")
         for _ in range(60):
-            if self.good("sub_iterate") == "held behind step 13":
+            if self.good("sub_iterate") == "held after step 13":
                 break
         else:
             self.fail("60 sub-iterations have not brought step 13 to its end")
@@ -71,11 +71,11 @@ class Control(leading.Leader):
         """Of a held run, between two steps and inside one."""
         manifest = self.out() + "/checkpoints/step_0000000013/manifest.json"
         self.assertFalse(os.path.exists(manifest))
-        self.assertEqual(self.good("checkpoint"), "checkpoint of step 13; held behind step 13")
+        self.assertEqual(self.good("checkpoint"), "checkpoint of step 13; held after step 13")
         self.assertTrue(os.path.exists(manifest))
         self.good("sub_iterate")
         self.assertEqual(self.good("checkpoint"),
-                         "checkpoint of step 13; held behind step 13, sub-iteration 0 of step 14")
+                         "checkpoint of step 13; held after step 13, sub-iteration 0 of step 14")
 
     def check_action(self, listener):
         from monarch_flight.msg import FlyAction, FlyGoal
@@ -103,11 +103,11 @@ class Control(leading.Leader):
         self.assertIn("from 61 to %d" % STEPS, client.get_goal_status_text())
         fly(0)
         self.wait_for(lambda: listener.steps[-1] > 60, 30, "a step of the new goal")
-        self.assertIn("; flying behind step ", self.good("checkpoint"))
+        self.assertIn("; flying after step ", self.good("checkpoint"))
         client.cancel_goal()
         self.assertTrue(client.wait_for_result(flying_duration(30)))
         self.assertEqual(client.get_state(), GoalStatus.PREEMPTED, client.get_goal_status_text())
-        self.assertIn("held behind step", client.get_result().message)
+        self.assertIn("held after step", client.get_result().message)
         self.wait_for(lambda: listener.steps[-1:] == [client.get_result().step], 10, "the last step")
         self.assertEqual(listener.steps, list(range(1, listener.steps[-1] + 1)))
 
@@ -115,12 +115,12 @@ class Control(leading.Leader):
         self.good("sub_iterate")  # in the middle of a step
         threading.Event().wait(1.0)  # poses of the last step, of other nodes too, are still on their way
         del listener.steps[:], listener.clock[:], listener.stamps[:]
-        self.assertEqual(self.good("reset"), "held behind step 0")
+        self.assertEqual(self.good("reset"), "held after step 0")
         self.wait_for(lambda: listener.steps and listener.clock and listener.stamps, 10, "level 0")
         self.assertEqual(listener.steps, [0])
         self.assertEqual([t.to_nsec() for t in listener.clock], [10**9])
         self.assertEqual({t.to_nsec() for t in listener.stamps}, {10**9})
-        self.assertIn("held behind step 3", self.good("step", 3))
+        self.assertIn("held after step 3", self.good("step", 3))
         self.wait_for(lambda: listener.steps[-1:] == [3], 10, "step 3")
         dt = 1 / 10.2 / 500
         for step, stamp in enumerate(listener.clock):

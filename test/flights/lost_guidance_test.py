@@ -75,7 +75,7 @@ class LostGuidance(Guided):
         self.assertIn("name its program by guidance_node:=", output)
 
         process = self.start(resume, LED, MONARCH_ANSWER_DELAY_MS="6")
-        self.wait_for(lambda: "goes on behind step" in self.output(process), 60, "the flight")
+        self.wait_for(lambda: "goes on after step" in self.output(process), 60, "the flight")
         self.wait_for(lambda: glob.glob(self.out() + "/checkpoints/step_00000002*"), 60, "more")
         process.send_signal(signal.SIGINT)
         code, output = self.finish(process, LIMIT)

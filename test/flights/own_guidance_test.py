@@ -43,7 +43,7 @@ class OwnGuidance(Guided):
             self.assertEqual(summary["steps"], 19)
             code, output = self.fly("resume:=" + self.out(fault), own[-1], **environment)
             self.assertEqual(code, 0, output)
-            self.assertIn("goes on behind step 19", output)
+            self.assertIn("goes on after step 19", output)
             self.assertEqual(self.sha(fault), self.sha("led"))
 
     def test_the_example_holds_the_climb(self):

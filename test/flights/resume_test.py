@@ -64,7 +64,7 @@ class Resume(flying.FlightTest):
         self.assertNotIn(code, (0, 130), output)
         code, output = self.fly("resume:=" + self.out("cut"), MONARCH_ANSWER_DELAY_MS="3")
         self.assertEqual(code, 0, output)
-        self.assertRegex(output, r"goes on behind step [1-3]\d0")
+        self.assertRegex(output, r"goes on after step [1-3]\d0")
         self.assert_same_flight()
 
     def test_interrupted_flight_keeps_its_last_step(self):
@@ -78,7 +78,7 @@ class Resume(flying.FlightTest):
         self.assertTrue(kept, failure)
         code, output = self.fly("resume:=" + self.out("cut"), "in_process:=true")
         self.assertEqual(code, 0, output)
-        self.assertIn("goes on behind step " + kept.group(1), output)
+        self.assertIn("goes on after step " + kept.group(1), output)
         self.assert_same_flight()
 
     def test_refused_resumption_changes_nothing(self):

@@ -38,6 +38,12 @@ class WrongInput(flying.FlightTest):
         self.assertIn("holds something already", self.refused("out:=" + self.out()))
         self.assertEqual(os.listdir(self.out()), ["precious"])
 
+    def test_a_folder_that_cannot_be_made(self):
+        for keys in (["in_process:=true"], []):
+            code, output = self.fly("fluid:=quasi_steady", "flaps:=1", "out:=/proc/nowhere", *keys)
+            self.assertEqual(code, 2, output)
+            self.assertIn("out = /proc/nowhere: cannot be created", output)
+
     def test_a_folder_that_is_no_run(self):
         output = self.refused("resume:=" + self.out("nowhere"))
         self.assertIn("nowhere: not the folder of a run (it has no case.yaml)", output)
@@ -46,9 +52,15 @@ class WrongInput(flying.FlightTest):
     def test_plan_tells_and_writes_nothing(self):
         code, output = self.fly("case:=tethered_fwuav", "plan:=true", "out:=" + self.out())
         self.assertEqual(code, 0, output)
+        self.assertNotIn("may end on it", output)
         for word in ("million cells", "cells a mean chord", "Courant number", "memory:", "time: set-up"):
             self.assertIn(word, output)
         self.assertFalse(os.path.exists(self.out()))
+
+    def test_plan_says_how_many_steps_it_takes(self):
+        code, output = self.fly("case:=tethered_fwuav", "steps_per_flap:=130", "plan:=true")
+        self.assertEqual(code, 0, output)
+        self.assertRegex(output, r"this run may end on it; take .*steps_per_flap >= \d+")
 
     def test_plan_refuses_what_cannot_be(self):
         code, output = self.fly("case:=tethered_fwuav", "plan:=true", "ranks:=1000", "out:=" + self.out())
@@ -76,7 +88,7 @@ class WrongInput(flying.FlightTest):
                                 "out:=" + self.out(), *keys)
         self.assertEqual(code, 2, output)
         self.assertIn("insect/body/mass = -1", output)
-        self.assertIn("time/flapps", output)
+        self.assertRegex(output, r"time/flapps is not a known key: .*; did you mean 'flaps'\?")
         self.assertFalse(os.path.exists(self.out()))
 
     def test_faults_of_the_case_file_in_one_process(self):

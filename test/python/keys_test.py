@@ -53,6 +53,12 @@ class Table(unittest.TestCase):
             self.assertIn(fault, text)
         self.assertEqual(len(faults), 6)
 
+    def test_words_of_other_programs_and_of_launch_files(self):
+        _, _, faults = TABLE.of("fly").read(("flaps=2", "--grid=fine", "watchdog:=3"))
+        self.assertIn("did you mean flaps:=2?", faults[0])
+        self.assertIn("did you mean grid:=fine?", faults[1])
+        self.assertIn("roslaunch monarch_flight flight.launch watchdog:=", faults[2])
+
 
 class Made(unittest.TestCase):
     def test_blocks_are_up_to_date(self):

@@ -17,7 +17,7 @@ struct RunPlace {
   bool held = false;            ///< it waits to be let go
   bool ended = false;
   std::string failure;  ///< of a run that has ended; empty: complete
-  /// "held behind step 12, sub-iteration 1 of step 13", for messages to people.
+  /// "held after step 12, sub-iteration 1 of step 13", for messages to people.
   std::string describe() const;
 };
 

@@ -19,7 +19,8 @@ struct RunPlan {
          courant_body = 0.0;  ///< peak speeds of outline and root x dt / in_plane
   double courant_flow = 0.0;  ///< expected of the flow round the wing: what the solver watches
   double courant_limit = 0.0;
-  double captured = 0.0;  ///< area of the wing's staircase over that of its outline
+  std::string shorter_steps;  ///< that keep the limit, in words; empty: those of the case do
+  double captured = 0.0;      ///< area of the wing's staircase over that of its outline
   double memory = 0.0, memory_left = 0.0;  ///< needed; available on this machine [bytes]
   int ranks = 1;                           ///< processes of the flow
   int ranks_here = 1;                      ///< of them on this machine

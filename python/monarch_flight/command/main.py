@@ -125,6 +125,9 @@ def called(name, words):
         print(f"{name}: {missing}; run {places.share()}/scripts/install {needs}" if places.source()
               else f"{name}: {missing}", file=sys.stderr)
         return telling.FAILED
+    except BrokenPipeError:  # whoever read the output has heard enough, as head
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")
+        return telling.FAILED
     except OSError as error:  # what the system refuses: a name that is too long, a folder that cannot be read
         telling.say(str(error), name)
         return telling.FAILED

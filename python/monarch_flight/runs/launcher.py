@@ -7,6 +7,9 @@ import json
 import os
 import signal
 import sys
+import time
+
+LAST_WORD = 3.0  # s, for a coordinator whose nodes have gone before it
 
 
 class Interrupt:
@@ -52,7 +55,20 @@ class Facts(roslaunch.pmon.ProcessListener):
         name = process_name if process_name in self.needed else process_name.rpartition("-")[0]
         self.tell(ended=name, exit_code=exit_code, needed=name in self.needed)
         if name in self.needed:
+            self.last_word(process_name)
             self.end(exit_code)
+
+    def last_word(self, ended):
+        """Tells how the coordinator ends, which knows what became of the run, where another node has `ended` before
+        it."""
+        for name in set(self.pm.get_active_names()) - {ended}:
+            role = name.rpartition("-")[0]
+            process = self.pm.get_process(name) if role in self.needed and role.endswith("coordinator") else None
+            deadline = time.monotonic() + LAST_WORD
+            while process is not None and process.is_alive() and time.monotonic() < deadline:
+                time.sleep(0.05)
+            if process is not None and process.exit_code is not None:
+                self.tell(ended=role, exit_code=process.exit_code, needed=True)
 
     def end(self, exit_code):
         self.code = 1 if exit_code else self.code

@@ -39,7 +39,7 @@ def table(s):
     yield "wing pitch", spread(s["theta_R_deg"], "%.1f") + " deg"
     if "theta_L_deg" in s:
         yield "left wing pitch", spread(s["theta_L_deg"], "%.1f") + " deg"
-    yield "grid", "%d cells" % s["cells"] if s["cells"] else "none (quasi-steady)"
+    yield "grid", "%d cells" % s["cells"] if s["cells"] else "none (%s)" % s.get("fluid", "quasi_steady")
     names = ("fluid", "fluid_left", "flight", "wing", "exchange", "coupling", "outputs")
     parts = ", ".join("%s %.1f" % (key, wall[key]) for key in names if key in wall)
     yield "wall time", "%.1f s (%s)" % (wall["total"], parts)
@@ -57,6 +57,8 @@ def load(folder):
         with open(path) as f:
             return json.load(f), ""
     except FileNotFoundError:
+        if not os.path.isdir(folder):
+            return None, "%s: there is no such folder; give that of a run" % folder
         return None, "the run wrote no summary (%s)" % path
     except (OSError, ValueError) as e:
         return None, "%s cannot be read: %s" % (path, e)

@@ -195,38 +195,53 @@ def foam(folder, command):
         return log.read()
 
 
-def set_entry(folder, key, value):
-    path = os.path.join(folder, "system", "controlDict")
+def set_entry(folder, key, value, name="controlDict"):
+    path = os.path.join(folder, "system", name)
     with open(path) as f:
         text = f.read()
     with open(path, "w") as f:
         f.write(re.sub(r"(?m)^%s .*;$" % key, "%s %.12g;" % (key, value), text))
 
 
-def openfoam(table, out, cells, rounds, steps):
-    """Rounds of some steps of OpenFOAM and of ours, in turns."""
+def openfoam_case(out, cells, steps):
+    """(folder, cells, time step [s]) of the peer's case."""
     case = os.path.join(out, "openfoam")
     shutil.rmtree(case, ignore_errors=True)
     shutil.copytree(os.path.join(ROOT, "bench", "openfoam"), case)
     os.makedirs(os.path.join(case, "constant", "polyMesh"))
     count, dt = run([program("openfoam_case"), str(cells), case]).split()
-    dt = float(dt)
-    set_entry(case, "deltaT", dt)
+    set_entry(case, "deltaT", float(dt))
     set_entry(case, "writeInterval", steps)
-    theirs, ours = [], []
-    for n in range(rounds):
-        set_entry(case, "endTime", (n + 1) * steps * dt)
-        log = foam(case, "pimpleFoam")
-        times = [float(t) for t in re.findall(r"ExecutionTime = (\S+) s", log)]
-        theirs += [b - a for a, b in zip(times, times[1:])]  # the first of a round holds the start
-        r = json.loads(run([program("flow"), str(cells), "10"]))
-        ours.append(r["full_ns"]["median"] * r["cells"] * 1e-9)
-        if r["cells"] != int(count):
-            fail("the two grids differ: %s and %d cells" % (count, r["cells"]))
-    table.add("openfoam_cpu_ratio", statistics.median(theirs) / statistics.median(ours), "", 85, at_least=True)
-    table.add("openfoam_cpu_per_step", statistics.median(theirs), "s")
-    table.add("monarch_cpu_per_step", statistics.median(ours), "s")
-    table.add("openfoam_cells", int(count), "")
+    return case, int(count), float(dt)
+
+
+def openfoam_steps(case, end, cores):
+    """Times of a step [s] from where the case stands to `end`: computing time of one core, or wall time of some, whose
+    processes wait busily."""
+    set_entry(case, "endTime", end)
+    if cores > 1 and not os.path.isdir(os.path.join(case, "processor0")):
+        set_entry(case, "numberOfSubdomains", cores, "decomposeParDict")
+        foam(case, "decomposePar")
+    log = foam(case, "pimpleFoam" if cores == 1 else "mpirun --oversubscribe -np %d pimpleFoam -parallel" % cores)
+    times = [float(t) for t in re.findall(r"ExecutionTime = (\S+) s", log)]
+    return [b - a for a, b in zip(times, times[1:])]  # the first one holds the start
+
+
+def openfoam(table, out, cells, rounds, steps):
+    """Rounds of some steps of OpenFOAM and of ours, in turns: on a core each, and on all of them."""
+    for cores, time, name in ((1, "median", "cpu"), (os.cpu_count(), "wall_median", "wall")):
+        case, count, dt = openfoam_case(out, cells, steps)
+        theirs, ours = [], []
+        for n in range(rounds):
+            theirs += openfoam_steps(case, (n + 1) * steps * dt, cores)
+            r = json.loads(run([program("flow"), str(cells), "10", str(cores)]))
+            ours.append(r["full_ns"][time] * r["cells"] * 1e-9)
+            if r["cells"] != count:
+                fail("the two grids differ: %d and %d cells" % (count, r["cells"]))
+        table.add("openfoam_%s_ratio" % name, statistics.median(theirs) / statistics.median(ours), "", 85, at_least=True)
+        table.add("openfoam_%s_per_step" % name, statistics.median(theirs), "s")
+        table.add("monarch_%s_per_step" % name, statistics.median(ours), "s")
+    table.add("openfoam_cells", count, "")
 
 
 PROGRAMS = {"steps": ["flow"], "kernels": ["kernels"], "ranks": ["flow"], "threads": ["flow"], "hypre": ["hypre"],

@@ -201,7 +201,8 @@ std::string Section::choice(const std::string& key, const std::vector<std::strin
   if (!node) return "";
   std::string text = node->IsScalar() ? node->Scalar() : "";
   if (std::find(options.begin(), options.end(), text) == options.end()) {
-    fault(key, " = " + shown(*node) + ": must be " + must + "; choose one");
+    fault(key,
+          " = " + shown(*node) + ": must be " + must + "; choose one" + nearest(text, options));
     return "";
   }
   put(key, text);
@@ -327,8 +328,9 @@ void Section::finish() {
   for (const auto& entry : node_) {
     const std::string key = entry.first.Scalar();
     if (known_.count(key) > 0) continue;
-    fault(key, " is not a known key: known here are " + joined({known_.begin(), known_.end()}) +
-                   "; correct or remove it");
+    const std::vector<std::string> known(known_.begin(), known_.end());
+    fault(key, " is not a known key: known here are " + joined(known) + "; correct or remove it" +
+                   nearest(key, known));
   }
 }
 

@@ -20,13 +20,17 @@ YAML::Node get(const YAML::Node& map, const std::string& key) {
                                         : YAML::Node(YAML::NodeType::Undefined);
 }
 
+constexpr char kPreset[] = ".yaml", kSeries[] = "_kinematics.yaml";  // ends of file names
+
 /// What stands before `ending` in the file names of a folder, for messages.
 std::string namesIn(const fs::path& folder, const std::string& ending) {
   std::vector<std::string> names;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name.size() <= ending.size()) continue;
+    const bool series = name.size() > std::string(kSeries).size() &&
+                        name.substr(name.size() - std::string(kSeries).size()) == kSeries;
+    if (name.size() <= ending.size() || series != (ending == kSeries)) continue;
     const std::size_t stem = name.size() - ending.size();
     if (name.substr(stem) == ending) names.push_back(name.substr(0, stem));
   }
@@ -211,8 +215,8 @@ YAML::Node layeredCase(const YAML::Node& given, const CaseOverrides& overrides,
                        const std::string& config_dir, Faults& faults) {
   checkTwins(given, "", faults);  // before maps are merged
   YAML::Node root = overlaid(loadMap(fs::path(config_dir) / "defaults.yaml"), given);
-  layBelow(root, "insect", "preset", ".yaml", config_dir, faults);
-  layBelow(root, "motion", "series", "_kinematics.yaml", config_dir, faults);
+  layBelow(root, "insect", "preset", kPreset, config_dir, faults);
+  layBelow(root, "motion", "series", kSeries, config_dir, faults);
   applyOverrides(root, overrides, config_dir, faults);
   countPrescribedSteps(root, given, faults);
   const auto file = overrides.find("guidance_file");

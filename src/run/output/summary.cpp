@@ -206,7 +206,7 @@ std::string Summary::json(const std::string& failure) const {
   j["steps"] = steps_;
   j["flaps"] = flaps();
   j["free_steps"] = solved_.count;
-  j["remarks"] = runRemarks(case_, steps_);
+  j["remarks"] = failure.empty() ? runRemarks(case_, steps_) : std::vector<std::string>();
   const bool tumbled = tumbled_ != kNever;
   j["tumbled_from_step"] = tumbled ? Json(tumbled_) : Json();
   j["tumbled_from_flap"] = tumbled && flapOf(tumbled_) > 0 ? Json(flapOf(tumbled_)) : Json();
