@@ -5,6 +5,7 @@
 #include "monarch_flight/fluid/processes.h"
 #include "monarch_flight/guidance/command_remarks.h"
 #include "monarch_flight/ros_io/conversions.h"
+#include "monarch_flight/ros_io/early_end.h"
 #include "monarch_flight/ros_io/flight_control.h"
 #include "monarch_flight/ros_io/flight_run.h"
 #include "monarch_flight/ros_io/guidance_by_node.h"
