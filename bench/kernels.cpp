@@ -48,7 +48,7 @@ struct Fields {
         phi(grid.cells() + grid.x.n() * grid.y.n(), 0.0),
         momentum(grid, layout, slab, team),
         pressure(grid, slab, team),
-        step{2 * s.dt(grid) / 3, s.dt(grid), s.air().mu / s.air().rho, s.air().rho, true},
+        step(s.dt(grid), s.dt(grid), s.air().mu / s.air().rho, s.air().rho),
         wall(wallVelocity(gridVelocity(s.motion(0)))) {
     for (int d = 0; d < 3; ++d) {
       for (std::size_t q = 0; q < vn.c[d].size(); ++q) {

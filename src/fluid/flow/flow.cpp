@@ -14,9 +14,6 @@ namespace monarch_flight::fluid {
 
 namespace {
 
-/// A wing set in motion at once drives potential flow round its rim, fast there for a few steps:
-/// twice the Courant number is let pass.
-constexpr long kStartSteps = 10;
 constexpr long kDivergenceEvery = 50;  // steps: a look at all velocities
 
 }  // namespace
@@ -47,9 +44,10 @@ void NavierStokes::fillFarField(const Eigen::Isometry3d& place, Velocity& v) con
 void NavierStokes::predictPlace() {
   const GridVelocity &n = level_n_.grid, &m = level_m_.grid;
   const Eigen::Isometry3d& place = level_n_.place;
-  predicted_.linear() = place.linear() * expSO3(dt_ * (1.5 * n.omega - 0.5 * m.omega));
-  predicted_.translation() = place.translation() + dt_ * (1.5 * place.linear() * n.V -
-                                                          0.5 * level_m_.place.linear() * m.V);
+  const double old = 0.5 * length_ / levelDistance(), now = 1 + old;
+  predicted_.linear() = place.linear() * expSO3(length_ * (now * n.omega - old * m.omega));
+  predicted_.translation() = place.translation() + length_ * (now * place.linear() * n.V -
+                                                              old * level_m_.place.linear() * m.V);
 }
 
 void NavierStokes::turnLevel(Velocity& v, Level& level) {
@@ -64,7 +62,7 @@ void NavierStokes::turnLevel(Velocity& v, Level& level) {
 }
 
 void NavierStokes::convectingField(const GridVelocity& g) {
-  const double extrapolation = step_.second_order ? 1.0 : 0.0;
+  const double extrapolation = step_.ratio;
   auto row = [&](int c, int j, int k) {
     const double z = c == 2 ? grid_.z.face[k] : grid_.z.centre[k];
     const double y = c == 1 ? grid_.y.face[j] : grid_.y.centre[j];
@@ -106,7 +104,7 @@ double NavierStokes::courant() {
     }
     rates_[k - layout_.k0] = worst;
   });
-  return slab_.max(*std::max_element(rates_.begin(), rates_.end())) * dt_;
+  return slab_.max(*std::max_element(rates_.begin(), rates_.end())) * length_;
 }
 
 /// What a step does before any guess of the interface: (1) predict the grid's motion, (2) turn both
@@ -122,18 +120,15 @@ void NavierStokes::prepareStep() {
     turnLevel(vm_, level_m_);
     prepared_ = true;
   }
-  const bool second = steps_ > 0;
-  step_ = {second ? 2 * dt_ / 3 : dt_, dt_, air_.mu / air_.rho, air_.rho, second};
-  convectingField({2 * n.V - m.V, 2 * n.omega - m.omega});
+  step_ = {length_, length_before_, air_.mu / air_.rho, air_.rho};
+  const double ahead = length_ / levelDistance();
+  convectingField({n.V + ahead * (n.V - m.V), n.omega + ahead * (n.omega - m.omega)});
   report_.courant = courant();
   timer.lap(Kernel::kTurning);
-  const double limit = courant_limit_ * (steps_ < kStartSteps ? 2 : 1);
-  if (report_.courant > limit) {
+  if (report_.courant > courant_limit_) {
     step_ = {};
     std::ostringstream s;
-    s << "Courant number " << report_.courant << " exceeds " << limit << ", "
-      << (steps_ < kStartSteps ? "in the first steps twice " : "")
-      << "grid/courant_limit = " << courant_limit_
+    s << "Courant number " << report_.courant << " exceeds grid/courant_limit = " << courant_limit_
       << ": use more steps a flap, a coarser grid, or raise the limit";
     throw NumericalError(s.str());
   }
@@ -141,11 +136,25 @@ void NavierStokes::prepareStep() {
   timer.lap(Kernel::kMomentumXY);
 }
 
-/// One evaluation: (1) momentum with the wall's new velocity, (2) pressure at the wing, (3) loads.
+/// Of the wing's points at the new level, by the step's own differences.
+WallVelocity NavierStokes::wallAcceleration() const {
+  const double r = step_.ratio, dt = step_.dt;
+  return combined((1 + 2 * r) / (1 + r) / dt, next_.wall, -(1 + r) / dt, level_n_.wall,
+                  r * r / (1 + r) / dt, level_m_.wall);
+}
+
 Loads NavierStokes::evaluate(const WingMotion& next) {
   if (!(dt_ > 0)) throw std::logic_error("NavierStokes::evaluate before start");
   evaluated_ = false;  // until it is done: what throws leaves nothing to commit
-  if (step_.dt == 0) prepareStep();
+  if (step_.dt == 0) {
+    easeIn(next);
+    prepareStep();
+  }
+  return solve(next);
+}
+
+/// One evaluation: (1) momentum with the wall's new velocity, (2) pressure at the wing, (3) loads.
+Loads NavierStokes::solve(const WingMotion& next) {
   LapTimer timer(report_.kernel_s);
   next_.axes = predicted_.linear();
   next_.grid = gridVelocity(next);
@@ -164,10 +173,7 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
   pressure_.solveAtWing(phi(), report_.kernel_s);
   timer.restart();
 
-  acceleration_ =
-      step_.second_order
-          ? combined(1.5 / dt_, next_.wall, -2 / dt_, level_n_.wall, 0.5 / dt_, level_m_.wall)
-          : combined(1 / dt_, next_.wall, -1 / dt_, level_n_.wall, 0, next_.wall);
+  acceleration_ = wallAcceleration();
   Loads loads;
   loads::pressureLoads(grid_, layout_, loads::WingPressure(grid_, layout_, p_.data(), phi()),
                        air_.rho, acceleration_, loads);
@@ -184,6 +190,11 @@ Loads NavierStokes::evaluate(const WingMotion& next) {
 
 void NavierStokes::commit() {
   if (!evaluated_) throw std::logic_error("NavierStokes::commit without evaluate");
+  complete();
+}
+
+/// The new level in all of the air: it becomes the committed one.
+void NavierStokes::complete() {
   pressure_.complete(phi(), report_.kernel_s);
   LapTimer timer(report_.kernel_s);
   fillPhiHalo();
@@ -203,6 +214,8 @@ void NavierStokes::commit() {
   level_m_ = level_n_;
   level_n_ = next_;
   committed_acceleration_ = acceleration_;
+  length_before_ = length_;
+  length_ = dt_;
   ++steps_;
   prepared_ = evaluated_ = false;
   step_ = {};

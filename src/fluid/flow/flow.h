@@ -64,15 +64,23 @@ class NavierStokes : public FluidModel {
   void setKnownFlow(KnownFlow flow);
 
  private:
+  void easeIn(const WingMotion& next);
+  void takePart(double part, const WingMotion& next);
   void prepareStep();
+  Loads solve(const WingMotion& next);
+  WallVelocity wallAcceleration() const;
+  void complete();
   template <class Stream, class Flow>
   static void exchange(Stream& s, Flow& flow);  ///< the saved state
   void predictPlace();
   void turnLevel(Velocity& v, Level& level);
   void convectingField(const GridVelocity& grid_velocity);
   double courant();
+  /// Between the two levels of the grid's motion; before the first step level -1 is made.
+  double levelDistance() const { return length_before_ > 0 ? length_before_ : length_; }
   Matrix6d computeAddedMass();
   void potentialStart();
+  void setLevelBefore(const Eigen::Vector3d& V_dot, const Eigen::Vector3d& omega_dot);
   void fillFarField(const Eigen::Isometry3d& place, Velocity& v) const;
 
   Eigen::Vector3d velocityAt(int i, int j, int k) const;  ///< committed, at the cell's centre
@@ -97,9 +105,11 @@ class NavierStokes : public FluidModel {
 
   // committed state
   double dt_ = 0;
-  long steps_ = 0;           ///< committed since start
-  bool prepared_ = false;    ///< levels are turned into the predicted axes of n+1
-  Level level_n_, level_m_;  ///< n and n-1
+  double length_ = 0;         ///< of the next step: dt_, but in parts of the first one
+  double length_before_ = 0;  ///< of the committed one; 0: none
+  long steps_ = 0;            ///< committed since start
+  bool prepared_ = false;     ///< levels are turned into the predicted axes of n+1
+  Level level_n_, level_m_;   ///< n and n-1
   Velocity vn_, vm_;
   Array p_;
   WallVelocity committed_acceleration_{};  ///< of the wing's points, own axes [m/s^2]

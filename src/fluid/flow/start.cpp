@@ -1,5 +1,6 @@
 // How a flow is made and set going.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "fluid/fields/projection.h"
@@ -8,6 +9,13 @@
 #include "monarch_flight/math/rotation.h"
 
 namespace monarch_flight::fluid {
+namespace {
+
+constexpr long kStartSteps = 10;      // in which a start at once is felt
+constexpr double kEasyCourant = 1.0;  // of their parts
+constexpr double kMostGrowth = 2.0;   // of lengths, from one part to the next; BDF2 bears 2.4
+
+}  // namespace
 
 NavierStokes::NavierStokes(Grid grid, const Air& air, double reference_length, double courant_limit,
                            MPI_Comm comm, int threads)
@@ -53,7 +61,8 @@ Matrix6d NavierStokes::computeAddedMass() {
 }
 
 void NavierStokes::start(const WingMotion& motion, double dt) {
-  dt_ = dt;
+  dt_ = length_ = dt;
+  length_before_ = 0;
   steps_ = 0;
   report_.kernel_s.fill(0.0);
   report_.divergence = 0.0;
@@ -68,15 +77,63 @@ void NavierStokes::start(const WingMotion& motion, double dt) {
   level_n_.wall = wallVelocity(level_n_.grid);
   level_n_.place = placeOf(motion);
   known_ = nullptr;
-  level_m_ = level_n_;
-  // Level -1 by the motion's own rates, so that the first extrapolation is of second order too.
-  const Eigen::Vector3d V_dot = motion.a_W - motion.omega_W.cross(level_n_.grid.V);
-  level_m_.grid.V -= dt * V_dot;
-  level_m_.grid.omega -= dt * motion.alpha_W;
-  level_m_.place.linear() = level_n_.place.linear() * expSO3(-dt * motion.omega_W);
-  level_m_.place.translation() -= dt * (level_n_.place.linear() * level_n_.grid.V);
+  setLevelBefore(motion.a_W - motion.omega_W.cross(level_n_.grid.V), motion.alpha_W);
   potentialStart();
   vm_ = vn_;
+}
+
+/// Level -1 by the motion's own rates, so that the first extrapolation is of second order too.
+void NavierStokes::setLevelBefore(const Eigen::Vector3d& V_dot, const Eigen::Vector3d& omega_dot) {
+  const GridVelocity& n = level_n_.grid;
+  level_m_ = level_n_;
+  level_m_.grid.V -= length_ * V_dot;
+  level_m_.grid.omega -= length_ * omega_dot;
+  level_m_.place.linear() = level_n_.place.linear() * expSO3(-length_ * n.omega);
+  level_m_.place.translation() -= length_ * (level_n_.place.linear() * n.V);
+}
+
+/// The air is fast round the rim of a wing that is set in motion at once, until a vortex has grown
+/// there. In the first steps, while what is left of a step takes it across more than a cell, parts
+/// of the step are taken before it; lengths at most double. In them the wing moves on to where the
+/// step's first evaluation has it, so that all evaluations of the step share them.
+void NavierStokes::easeIn(const WingMotion& next) {
+  if (known_) return;  // nothing was set in motion
+  for (;;) {
+    double part = length_before_ > 0 ? kMostGrowth * length_before_ : length_;
+    if (steps_ < kStartSteps) {
+      convectingField(level_n_.grid);
+      const double cells = courant();
+      if (cells > kEasyCourant) part = std::min(part, length_ * kEasyCourant / cells);
+    }
+    if (part >= length_) return;
+    takePart(std::min(part, 0.5 * length_), next);
+  }
+}
+
+/// The beginning of the step that is left to be done.
+void NavierStokes::takePart(double part, const WingMotion& next) {
+  const GridVelocity n = level_n_.grid, m = level_m_.grid;
+  const double share = part / length_;
+  struct Rest {  // also where the part fails
+    double& length;
+    long& steps;
+    const double left = length;
+    const long done = steps;
+    double taken = 0;
+    ~Rest() { length = left - taken, steps = done; }
+  } rest{length_, steps_};
+  length_ = part;
+  if (length_before_ == 0) setLevelBefore((n.V - m.V) / rest.left, (n.omega - m.omega) / rest.left);
+  WingMotion wing;
+  wing.v_W = n.V + share * (next.v_W - n.V);
+  wing.omega_W = n.omega + share * (next.omega_W - n.omega);
+  wing.R_IW = level_n_.place.linear() * expSO3(0.5 * part * (n.omega + wing.omega_W));
+  wing.r_I = level_n_.place.translation() +
+             0.5 * part * (level_n_.place.linear() * n.V + wing.R_IW * wing.v_W);
+  prepareStep();
+  solve(wing);
+  complete();
+  rest.taken = part;
 }
 
 /// The wing is set in motion at once: the air takes up the potential flow of its normal velocity.

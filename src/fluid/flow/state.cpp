@@ -78,7 +78,8 @@ void exchangeLevel(Stream& s, L& level) {
 /// All of it behind the sizes of the grid, of a flow that is written (const) or read.
 template <class Stream, class Flow>
 void NavierStokes::exchange(Stream& s, Flow& flow) {
-  s(flow.dt_), s(flow.steps_), s(flow.prepared_), s(flow.report_.divergence);
+  s(flow.dt_), s(flow.length_), s(flow.length_before_), s(flow.steps_), s(flow.prepared_);
+  s(flow.report_.divergence);
   exchangeLevel(s, flow.level_n_);
   exchangeLevel(s, flow.level_m_);
   exchangePlace(s, flow.predicted_);

@@ -21,7 +21,7 @@ struct Row {
   const double *width, *distance, *fourth;  ///< along x, inverse
   double width_y, y_below, y_above;         ///< inverse: width, distances
   double width_z, z_below, z_above;
-  double third, gradient;  ///< weight of v^n - v^(n-1); a / rho (times 1 / width but along x)
+  double memory, gradient;  ///< weight of v^n - v^(n-1); a / rho (times 1 / width but along x)
   double share, courant_x, courant_y;  ///< of the fourth differences
 };
 
@@ -40,7 +40,7 @@ Row rowOf(const Metrics& m, const MomentumStep& step, const ExplicitSide& side, 
   r.width_y = axis[1].inverse_width[j], r.width_z = axis[2].inverse_width[k];
   r.y_below = axis[1].inverse_distance[j], r.y_above = axis[1].inverse_distance[j + 1];
   r.z_below = axis[2].inverse_distance[k], r.z_above = axis[2].inverse_distance[k + 1];
-  r.third = step.second_order ? 1.0 / 3 : 0.0;
+  r.memory = step.memory;
   r.gradient = step.a / step.rho * (component == 0 ? 1 : component == 1 ? r.width_y : r.width_z);
   r.share = step.a / step.dt * kDissipation;
   r.courant_x = 0.5 * step.dt * r.share;
@@ -64,7 +64,7 @@ void form(const Row& r, const FaceStencil& stencil, double* d, const RowFactors&
   const double nu_y0 = nu * r.width_y * r.y_below, nu_y1 = nu * r.width_y * r.y_above;
   const double nu_z0 = nu * r.width_z * r.z_below, nu_z1 = nu * r.width_z * r.z_above;
   const double distance_y = r.y_above, width_y = r.width_y;
-  const double third = r.third, gradient = r.gradient, share = r.share;
+  const double memory = r.memory, gradient = r.gradient, share = r.share;
   const double courant_x = r.courant_x, courant_y = r.courant_y;
 #pragma omp simd
   for (int i = r.i0; i <= r.i1; ++i) {
@@ -73,7 +73,7 @@ void form(const Row& r, const FaceStencil& stencil, double* d, const RowFactors&
     const double y0 = y_sum[i], y1 = cy[i] + cy[i - sc];
     const double z0 = cz[i] + cz[i - sc], z1 = cz[i + sz] + cz[i + sz - sc];
     const double slope = C == 0 ? gradient * width[i] : gradient;
-    double sum = third * (here - w[i]) - slope * (q[i] - q_before[i]);
+    double sum = memory * (here - w[i]) - slope * (q[i] - q_before[i]);
     sum -= width[i] * ((quarter * x1 - nu * distance[i + 1]) * (v[i + 1] - here) -
                        (quarter * x0 + nu * distance[i]) * (v[i - 1] - here));
     sum -= (quarter_y * y1 - nu_y1) * (v[i + sy] - here) -
@@ -161,7 +161,7 @@ void formRow(const Metrics& m, const MomentumStep& step, const ExplicitSide& sid
   }
   if (const double* mobility = m.grid.mobility.row(component, j, k)) {
     for (int i = r.i0; i <= r.i1; ++i)
-      d[i] += (mobility[i] - 1) * (d[i] - r.third * (r.v[i] - r.w[i]));
+      d[i] += (mobility[i] - 1) * (d[i] - r.memory * (r.v[i] - r.w[i]));
   }
 }
 

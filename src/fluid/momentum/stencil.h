@@ -6,13 +6,23 @@
 
 namespace monarch_flight::fluid::momentum {
 
-/// Constants of one momentum step.
+/// Constants of one momentum step: BDF2, v^(n+1) - v^n = memory (v^n - v^(n-1)) + a f^(n+1).
 struct MomentumStep {
-  double a;           ///< dt (first step) or 2 dt / 3: the factor of the new level's right side [s]
-  double dt;          ///< [s]
-  double nu;          ///< kinematic viscosity [m^2/s]
-  double rho;         ///< [kg/m^3]
-  bool second_order;  ///< BDF2; false: implicit Euler
+  double dt = 0;      ///< its length [s]
+  double ratio = 0;   ///< by that of the step before; 0: there was none, implicit Euler
+  double nu = 0;      ///< kinematic viscosity [m^2/s]
+  double rho = 0;     ///< [kg/m^3]
+  double memory = 0;  ///< 1/3 after a step of the same length
+  double a = 0;       ///< 2 dt / 3 then [s]
+
+  MomentumStep() = default;
+  MomentumStep(double length, double length_before, double viscosity, double density)
+      : dt(length),
+        ratio(length_before > 0 ? length / length_before : 0),
+        nu(viscosity),
+        rho(density),
+        memory(ratio * ratio / (1 + 2 * ratio)),
+        a(dt * (1 + ratio) / (1 + 2 * ratio)) {}
 };
 
 constexpr double kUpwindMin = 0.02;  ///< share of first-order upwind at small Courant numbers
