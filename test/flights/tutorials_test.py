@@ -12,7 +12,7 @@ import flying
 
 TUTORIALS = os.path.join(flying.ROOT, "docs", "tutorials")
 BLOCK = re.compile(r"(?ms)^```(\w+)(?: (\S+))?\n(.*?)^```$")
-LIMIT = 150  # of a tutorial [s]
+LIMIT = 300  # of a tutorial [s]
 
 
 class Tutorials(flying.FlightTest):
@@ -95,18 +95,14 @@ class Tutorials(flying.FlightTest):
 
     def test_6_own_controller(self):
         self.followed("6_own_controller.md")
-        for name in ("own_controller", "climb_guidance"):
-            self.assertEqual(self.flown(name)["guidance"]["type"], "node")
-            columns, rows = flying.table(self.out("flights/" + name), "flight.csv")
-            self.assertTrue(any(row[columns.index("command_deviation_mean")] for row in rows))
+        self.assertEqual(self.flown("own_controller")["guidance"]["type"], "node")
+        columns, rows = flying.table(self.out("flights/own_controller"), "flight.csv")
+        self.assertTrue(any(row[columns.index("command_deviation_mean")] for row in rows))
 
     def test_7_own_fluid(self):
         self.followed("7_own_fluid.md")
         columns, rows = flying.table(self.out("flights/vacuum"), "flight.csv")
-        force = columns.index("FZ")
-        self.assertEqual({row[force] for row in rows}, {0.0})
-        columns, rows = flying.table(self.out("flights/drag"), "flight.csv")
-        self.assertTrue(any(row[force] for row in rows))
+        self.assertEqual({row[columns.index("FZ")] for row in rows}, {0.0})
 
     def test_8_cluster(self):
         self.followed("8_cluster.md")
