@@ -51,7 +51,8 @@ foreach(level ${FLUID_LEVELS})
 endforeach()
 set_target_properties(${CORE_PROGRAMS} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
 install(TARGETS ${NODE_TARGETS} ${CORE_PROGRAMS} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(PROGRAMS examples/drag_fluid.py examples/climb_guidance.py examples/joy_guidance.py
+install(PROGRAMS examples/first_fluid.py examples/drag_fluid.py examples/first_guidance.py
+  examples/climb_guidance.py examples/joy_guidance.py
   scripts/flown.py scripts/joint_sliders.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/monarch_flight/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}

@@ -1,4 +1,6 @@
-"""What is made from config/keys.yaml: arguments and parameters of launch/flight.launch, and the table of README.md."""
+"""What is made from config/keys.yaml: arguments and parameters of launch/flight.launch, and the table of
+docs/parameters.md."""
+import posixpath
 import re
 from xml.sax.saxutils import quoteattr
 
@@ -56,7 +58,8 @@ def manual_row(key):
         default = key.default.replace("[", "<").replace("]", ">")
         text += f"; default {default if ' ' in default else f'`{default}`'}"
     if key.see:
-        text += f" ([{key.see}]({key.see}))"
+        name = posixpath.basename(key.see)  # the table stands in the same folder
+        text += f" ([{name}]({name}))"
     only = {(True, False): " (only `monarch fly`)", (False, True): " (only the launch files)"}
     return f"| `{key.name}` | {value(key)} | {text}{only.get(('fly' in key.of, 'launch' in key.of), '')} |\n"
 
@@ -69,7 +72,7 @@ def manual(table):
 
 BLOCKS = (("launch/flight.launch", "arguments", launch_arguments),
           ("launch/flight.launch", "parameters", launch_parameters),
-          ("README.md", "keys", manual))
+          ("docs/parameters.md", "keys", manual))
 
 
 def pattern(block):

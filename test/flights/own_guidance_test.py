@@ -2,8 +2,6 @@
 """A guidance node of one's own, in Python: what it leads is the same again, and can be flown again
 without it."""
 import os
-import re
-import textwrap
 import unittest
 
 import flying
@@ -73,23 +71,6 @@ class OwnGuidance(Guided):
         self.assertNotEqual(self.sha("cpp"), self.sha("motion"))
         self.complete("again", "replay:=" + self.out("cpp"), "in_process:=true")
         self.assertEqual(self.sha("again"), self.sha("cpp"))
-
-    def test_the_example_of_the_manual(self):
-        """docs/guidance.md has a program: it flies as it stands there."""
-        with open(os.path.join(flying.ROOT, "docs", "guidance.md")) as f:
-            indented = re.search(r"(?m)^    #!/usr/bin/python3\n(?:(?:    .*)?\n)*", f.read()).group()
-        name = "manual_guidance_%d.py" % os.getpid()
-        path = os.path.join(flying.NODE_DIR, name)  # where installed programs are, too
-        self.addCleanup(os.remove, path)
-        with open(path, "w") as f:
-            f.write(textwrap.dedent(indented).strip() + "\n")
-        os.chmod(path, 0o755)
-        examples = os.path.join(flying.ROOT, "examples")
-        self.complete("manual", *CLIMB, "flaps:=0.3", "guidance_node:=" + name,
-                      PYTHONPATH=examples + ":" + os.environ.get("PYTHONPATH", ""))
-        columns, rows = flying.table(self.out("manual"), "flight.csv")
-        column = columns.index("command_deviation_mean")
-        self.assertTrue(any(row[column] for row in rows))
 
     def test_programs_that_cannot_be_started(self):
         name = "locked_guidance_%d.py" % os.getpid()

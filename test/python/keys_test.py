@@ -85,7 +85,7 @@ class Made(unittest.TestCase):
 
     def test_missing_marks_are_told(self):
         with self.assertRaisesRegex(ValueError, "marks of the block 'keys'"):
-            key_texts.renewed("no marks", "README.md", TABLE)
+            key_texts.renewed("no marks", "docs/parameters.md", TABLE)
 
 
 class Command(unittest.TestCase):

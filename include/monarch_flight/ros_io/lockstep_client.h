@@ -23,7 +23,8 @@ struct LockstepRun {
 };
 
 /// The coordinator's end: a solver in another node, as a Participant (fields: msg/*.msg).
-/// Topics <role>/coordinator_hello and <role>/request out, <role>/hello and <role>/reply in.
+/// Topics `<role>/coordinator_hello` and `<role>/request` out, `<role>/hello` and `<role>/reply`
+/// in.
 class RosParticipant : public Participant {
  public:
   /// Advertises and subscribes in `node`'s namespace. `run` must outlive this.

@@ -30,9 +30,9 @@ int guidanceMain(int argc, char** argv,
 int pressureViewMain(int argc, char** argv);
 /// The same flight without a master: key:=value arguments.
 int inProcessMain(int argc, char** argv);
-/// Prints the URDF of a case's insect and writes its meshes: case:=<name or path>, out:=<folder>
-/// (default: ~/.ros/monarch_flight/model-<case>), mesh_uri:=<where the URDF finds them> (default:
-/// out).
+/// Prints the URDF of a case's insect and writes its meshes: `case:=<name or path>`,
+/// `out:=<folder>` (default: `~/.ros/monarch_flight/model-<case>`), `mesh_uri:=<where the URDF
+/// finds them>` (default: out).
 int insectModelMain(int argc, char** argv);
 
 }  // namespace monarch_flight

@@ -15,7 +15,7 @@ namespace monarch_flight {
 /// namespace of the run; an empty text means not given.
 struct RunParameters {
   std::string name = "climb_controlled";  ///< `case`: name or path of the case file
-  std::string out;                        ///< folder of the results; empty: flights/<case>-<time>
+  std::string out;                        ///< folder of the results; empty: `flights/<case>-<time>`
   std::string resume;                     ///< folder of a run to go on with; empty: a new run
   std::string directory;  ///< where relative paths start; empty: the working directory
   /// keys of config/keys.yaml that go in place of what the case file says

@@ -73,7 +73,7 @@ std::string fluidName(const Case& c);
 /// a YAML scalar.
 using CaseOverrides = std::map<std::string, std::string>;
 
-/// Reads a case by name (config/cases/<name>.yaml under `config_dir`) or by path; applies
+/// Reads a case by name (`config/cases/<name>.yaml` under `config_dir`) or by path; applies
 /// overrides; resolves presets and tables relative to the case file; throws InputError with every
 /// fault at once.
 Case loadCase(const std::string& name_or_path, const CaseOverrides& overrides,

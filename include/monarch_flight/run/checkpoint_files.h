@@ -15,17 +15,17 @@ struct CheckpointFacts {
   int ranks = 0;  ///< processes of the flow, which the fluid's part fits; 0: not told
 };
 
-/// The folder <run>/checkpoints: a folder step_<n> for each checkpoint that counts, with one HDF5
-/// file for each part and manifest.json, which holds size and SHA-256 of all of them and of itself.
-/// While it is made it is called step_<n>.active; everything is on the disk before it gets its
-/// name.
+/// The folder `<run>/checkpoints`: a folder `step_<n>` for each checkpoint that counts, with one
+/// HDF5 file for each part and manifest.json, which holds size and SHA-256 of all of them and of
+/// itself. While it is made it is called step_<n>.active; everything is on the disk before it gets
+/// its name.
 class CheckpointFiles {
  public:
   explicit CheckpointFiles(std::string folder) : folder_(std::move(folder)) {}
 
   /// Begins a checkpoint; leftovers of unfinished ones go. Throws OutputError.
   void open(std::uint32_t step) const;
-  /// Writes a part of the open checkpoint: <part>.h5. Throws OutputError.
+  /// Writes a part of the open checkpoint: `<part>.h5`. Throws OutputError.
   void write(std::uint32_t step, const std::string& part, const StateRecord& record) const;
   /// Ends it: from here on it counts, and all but the last two go. Throws OutputError, also where a
   /// file of one of `parts` is missing (a solver of another make may give it its own ending).

@@ -2,7 +2,7 @@
 that table, and check:=true tells whether it is up to date (exit code 0)."""
 from monarch_flight import key_texts, keys, preparing
 
-OWN = keys.Table([keys.Key("write", "truth", "renew the blocks in launch/flight.launch and README.md"),
+OWN = keys.Table([keys.Key("write", "truth", "renew the blocks in launch/flight.launch and docs/parameters.md"),
                   keys.Key("check", "truth", "tell which of them are stale")])
 
 

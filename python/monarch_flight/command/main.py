@@ -30,6 +30,7 @@ COMMANDS = {
     "build": "compiles into build/",
     "install": "installs Debian packages that are missing",
     "clean-machine": "proves the two commands on a bare Debian",
+    "api": "makes the pages of the C++ interface",
     "keys": "tells the keys of a run; renews what is made from their table",
 }
 
