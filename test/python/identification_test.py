@@ -118,6 +118,8 @@ class Search(Folder):
         ratio, ahead = found.comparison.fundamental()
         self.assertAlmostEqual(ratio, 1.0, places=5)
         self.assertAlmostEqual(ahead, 0.0, places=3)
+        self.assertLess(found.comparison.repeats, 1e-9)
+        self.assertTrue(found.ended)
         self.assertEqual(list(found.active), [0, 0])
         self.assertEqual(wanted.content(found.stage, found.values)["insect"]["wing"]["kappa"], found.values[0])
 

@@ -20,7 +20,7 @@ class Comparison:
     phase: np.ndarray  # flaps from the start of the motion
     flown: np.ndarray
     measured: np.ndarray
-    frequency: float
+    repeats: float  # rms change of the flown angle from the flap before the last one to the last one; NaN of one flap
 
     @property
     def residuals(self):
@@ -45,7 +45,7 @@ class Found:
     comparison: Comparison
     jacobian: np.ndarray  # of the residuals [deg] by the shares
     active: np.ndarray  # -1, 1: the unknown stands at the low or high end of its range
-    message: str
+    ended: bool  # False: stopped behind the most points
 
 
 class Search:
@@ -63,7 +63,8 @@ class Search:
         steps, frequency = int(case["time"]["steps_per_flap"]), float(case["motion"]["frequency"])
         rows = np.concatenate([np.arange((flap - 1) * steps + 1, flap * steps + 1) for flap in self.study.flaps])
         rows = rows[rows < len(t)]
-        return Comparison(t[rows], rows / steps, angle[rows], self.study.measured.at(t[rows], frequency), frequency)
+        last = angle[-steps:] - angle[-2 * steps:-steps] if len(angle) > 2 * steps else np.array([np.nan])
+        return Comparison(t[rows], rows / steps, angle[rows], self.study.measured.at(t[rows], frequency), float(np.sqrt(np.mean(last ** 2))))
 
     def flown(self, points):
         """For each point its Comparison or the Failed."""
@@ -112,7 +113,7 @@ class Search:
         fit = least_squares(self.residuals, np.clip(shares, 1e-6, 1 - 1e-6), self.jacobian, bounds=(0.0, 1.0), method="trf", max_nfev=most,
                             ftol=TOLERANCE, xtol=TOLERANCE, gtol=None)
         [best] = self.flown([fit.x])
-        return Found(self.stage, fit.x, self.values(fit.x), best, fit.jac * np.sqrt(len(best.residuals)), at_ends(fit), fit.message)
+        return Found(self.stage, fit.x, self.values(fit.x), best, fit.jac * np.sqrt(len(best.residuals)), at_ends(fit), fit.status > 0)
 
 
 def at_ends(fit):

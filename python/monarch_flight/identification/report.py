@@ -56,7 +56,7 @@ def rounded(values, digits=6):
 def stage_record(study, one):
     ratio, ahead = one.comparison.fundamental()
     return dict(name=one.stage.name, case=dict(one.stage.changes), rms_deg=round(one.comparison.rms, 4), amplitude_ratio=round(ratio, 4),
-                ahead_deg=round(ahead, 3), mean_deg=round(float(one.comparison.flown.mean()), 3), end=one.message,
+                ahead_deg=round(ahead, 3), repeats_deg=round(one.comparison.repeats, 4), mean_deg=round(float(one.comparison.flown.mean()), 3), ended=one.ended,
                 values={unknown.key: value for unknown, value in zip(study.unknowns, one.values)})
 
 
@@ -84,11 +84,12 @@ def text(study, found, known):
     last, names = found[-1], [unknown.key.rpartition("/")[2] for unknown in study.unknowns]
     width = max(map(len, names)) + 2
     lines = [f"{study.measured.angle} of {study.measured.source} against {study.case.get('name')}, {flaps(study)}", "",
-             f"{'stage':34s}{'rms deg':>9s}{'ratio':>8s}{'ahead deg':>11s}  " + "".join(f"{name:>{max(12, len(name) + 2)}s}" for name in names)]
+             f"{'stage':34s}{'rms deg':>9s}{'ratio':>8s}{'ahead deg':>11s}{'repeats deg':>13s}  " + "".join(f"{name:>{max(12, len(name) + 2)}s}" for name in names)]
     for one in found:
         ratio, ahead = one.comparison.fundamental()
-        lines.append(f"{one.stage.name[:33]:34s}{one.comparison.rms:9.3f}{ratio:8.3f}{ahead:11.1f}  "
+        lines.append(f"{one.stage.name[:33]:34s}{one.comparison.rms:9.3f}{ratio:8.3f}{ahead:11.1f}{one.comparison.repeats:13.2f}  "
                      + "".join(f"{value:>{max(12, len(name) + 2)}.5g}" for name, value in zip(names, one.values)))
+    lines += [f"the search of {one.stage.name} was stopped behind its most points; call it again with a larger most" for one in found if not one.ended]
     lines += ["", f"{'unknown'.ljust(width)}{'value':>13s}{'deviation':>12s}{'low':>11s}{'high':>11s}  correlation"]
     told, ends_ = ends(last)
     for i, unknown in enumerate(study.unknowns):
