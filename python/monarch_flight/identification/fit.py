@@ -83,11 +83,16 @@ class Search:
         self.tell(f"  point {self.points}: {words}: rms {result.rms:.3f} deg")
         return result.residuals / np.sqrt(len(result.residuals))
 
+    def beside(self, shares):
+        """Signs of the differences, into the range, and a point and its neighbours."""
+        signs = np.where(np.asarray(shares) + self.study.difference < 1.0, 1.0, -1.0)
+        return signs, [shares, *(shares + sign * self.study.difference * row for sign, row in zip(signs, np.eye(len(shares))))]
+
     def jacobian(self, shares):
-        """By differences into the range, side by side; where such a flight fails, to the other side."""
+        """By differences, side by side; where such a flight fails, to the other side."""
         step, n = self.study.difference, len(shares)
-        signs = np.where(np.asarray(shares) + step < 1.0, 1.0, -1.0)
-        results = self.flown([shares, *(shares + sign * step * row for sign, row in zip(signs, np.eye(n)))])
+        signs, points = self.beside(shares)
+        results = self.flown(points)
         base, columns = results[0], results[1:]
         for i in [i for i, column in enumerate(columns) if isinstance(column, Failed)]:
             signs[i] = -signs[i]
@@ -99,8 +104,8 @@ class Search:
             / np.sqrt(len(base.residuals))
 
     def begin(self, shares):
-        """The first point, which must fly and be covered by what was measured."""
-        [self.start] = self.flown([shares])
+        """The first point, side by side with those of its differences; it must fly and be covered by what was measured."""
+        self.start = self.flown(self.beside(shares)[1])[0]
         if isinstance(self.start, Failed):
             raise NoWay(f"the flight of the start values failed: {self.start}; change unknown/*/start, or take more steps a flap")
         if not np.isfinite(self.start.measured).all():
@@ -109,8 +114,9 @@ class Search:
 
     def run(self, shares, most):
         """From `shares` to the least sum of squares."""
+        shares = np.clip(shares, 1e-6, 1 - 1e-6)
         self.begin(shares)
-        fit = least_squares(self.residuals, np.clip(shares, 1e-6, 1 - 1e-6), self.jacobian, bounds=(0.0, 1.0), method="trf", max_nfev=most,
+        fit = least_squares(self.residuals, shares, self.jacobian, bounds=(0.0, 1.0), method="trf", max_nfev=most,
                             ftol=TOLERANCE, xtol=TOLERANCE, gtol=None)
         [best] = self.flown([fit.x])
         return Found(self.stage, fit.x, self.values(fit.x), best, fit.jac * np.sqrt(len(best.residuals)), at_ends(fit), fit.status > 0)

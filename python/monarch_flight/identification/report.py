@@ -33,8 +33,7 @@ def case(study, found, known):
     """The case of the last stage with what was found; each fitted key says so."""
     last = found[-1]
     comments, heading = case_files.comments(study.origin)
-    for key in [key for key in comments if key.partition("/")[0] in {change.partition("/")[0] for change in last.stage.changes}]:
-        comments.pop(key)  # told of what the stage has changed
+    comments |= {key: "status: set by the study" for key in study.set}
     ratio, ahead = last.comparison.fundamental()
     names = " and ".join(unknown.key for unknown in study.unknowns)
     for unknown, deviation in zip(study.unknowns, deviations(study, known)):

@@ -46,6 +46,7 @@ class Study:
     name: str
     case: dict  # content of the case file, `set` included
     origin: pathlib.Path  # that file
+    set: dict  # what the study puts into it
     unknowns: list
     measured: object
     flaps: list  # compared, counted from 1
@@ -120,10 +121,18 @@ class Check:
         except (OSError, ValueError, yaml.YAMLError) as error:
             self.fault("case", f"{path} cannot be read: {error}")
             return path, {}
-        time, motion = (content.get(part) if isinstance(content, dict) else None for part in ("time", "motion"))
+        content = content if isinstance(content, dict) else {}
+        time, motion = content.get("time"), content.get("motion")
         if not (isinstance(time, dict) and "steps_per_flap" in time and isinstance(motion, dict) and number(motion.get("frequency"))):
             self.fault("case", f"{path}: must have motion/frequency and time/steps_per_flap; flaps are compared")
         return path, content
+
+    def set(self):
+        value = self.content.get("set", {})
+        if not isinstance(value, dict):
+            self.fault("set", "must be keys of the case with their values; as {insect/wing/mass: 3.7e-5}")
+            return {}
+        return value
 
     def unknowns(self):
         found = []
@@ -189,13 +198,13 @@ def read(path):
     check = Check(path, content)
     name, (origin, case), unknowns = check.name(), check.case(), check.unknowns()
     flaps, difference, stages = check.flaps(), check.difference(), check.stages()
-    for key, value in (content.get("set") or {}).items():
+    for key, value in check.set().items():
         place(case, key, value)
     series, faults = measured.read(content.get("measured"), path)
     for fault in faults:
         check.fault("measured", fault)
     if check.faults:
         raise Refused(*check.faults)
-    study = Study(name, case, origin, unknowns, series, flaps, difference, stages)
+    study = Study(name, case, origin, check.set(), unknowns, series, flaps, difference, stages)
     study.content(stages[0], [unknown.start for unknown in unknowns])  # a path that leads through a number is told now
     return study
