@@ -46,6 +46,26 @@ def read(path):
         return anchored(yaml.load(file, CaseLoader), path.resolve().parent)
 
 
+def comments(path):
+    """(what stands above each key of a file, by its path, as text() takes it; the heading, as it stands). Sections are told
+    by their indents, as in every case of ours; comments behind values are not kept."""
+    above, found, pending, heading, begun = [], {}, [], [], False
+    for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
+        bare = line.strip()
+        key = re.match(r"( *)([A-Za-z0-9_]+):( |$)", line)
+        if bare.startswith("#"):
+            (pending if begun else heading).append(bare)
+        elif key:
+            above = [(indent, name) for indent, name in above if indent < len(key[1])] + [(len(key[1]), key[2])]
+            if pending:
+                found["/".join(name for _, name in above)] = "\n".join(comment.lstrip("#").strip() for comment in pending)
+            pending = []
+        begun = begun or not bare.startswith("#")
+        if not bare:
+            pending = []
+    return found, "".join(line + "\n" for line in heading)
+
+
 def run_name(case, *options):
     """Name of a run's folder that is another one for another text of the case or other options of monarch fly."""
     path = path_of(case)

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 #include "monarch_flight/insect/build.h"
 
@@ -37,6 +39,30 @@ void checkButterfly(const Insect& insect, FaultList& list) {
   for (int i = 0; i < 3; ++i) list.finite("abdomen/joint", insect.abdomen.mu[i], "m");
 }
 
+/// `section`: where the case has the additions.
+void checkAdditions(const std::string& section, const HingeAdditions& additions, FaultList& list) {
+  const auto atLeastZero = [&](const char* name, double value, const char* unit) {
+    list.require(std::isfinite(value) && value >= 0.0, section + name, value, unit, ">= 0",
+                 "0 is the paper's hinge, which has none");
+  };
+  atLeastZero("damping", additions.damping, "N m s/rad");
+  atLeastZero("cubic_stiffness", additions.cubic_stiffness, "N m/rad3");
+  atLeastZero("stop_stiffness", additions.stop_stiffness, "N m/rad");
+  const auto& [low, high] = std::tie(additions.stop_low, additions.stop_high);
+  for (const auto& [name, stop] : {std::pair{"stop_low", low}, {"stop_high", high}}) {
+    if (stop)
+      list.require(std::abs(*stop) <= M_PI, section + name, *stop, "rad", "within +-pi, or none",
+                   "angles without the suffix _deg are in radians");
+  }
+  if (low && high)
+    list.require(*low < *high, section + "stop_low", *low, "rad", "< stop_high",
+                 "the wing pitches freely between the two");
+  if (low || high)
+    list.require(additions.stop_stiffness != 0.0, section + "stop_stiffness",
+                 additions.stop_stiffness, "N m/rad", "> 0 where there is a stop",
+                 "ten times wing/kappa is a hard one");
+}
+
 /// `section`: where the case has the wing.
 void checkWing(const std::string& section, const Wing& wing, bool bare, FaultList& list) {
   const auto key = [&section](const char* name) { return section + "/" + name; };
@@ -54,6 +80,7 @@ void checkWing(const std::string& section, const Wing& wing, bool bare, FaultLis
                ">= 0", "the published value is 1.5e-4; 0 is a free hinge");
   list.require(std::abs(wing.theta_0) <= M_PI, key("theta_0"), wing.theta_0, "rad", "within +-pi",
                "angles without the suffix _deg are in radians");
+  checkAdditions(key("hinge_additions/"), wing.additions, list);
 }
 
 }  // namespace
@@ -113,7 +140,8 @@ Eigen::Matrix3d Cylinder::inertia() const {
 }
 
 Wing makeWing(const WingParameters& wing, const Planform& planform) {
-  return {plateWing(planform, wing.mass, wing.root), planform, wing.kappa, wing.theta_0};
+  return {plateWing(planform, wing.mass, wing.root), planform, wing.kappa, wing.theta_0,
+          wing.additions};
 }
 
 Insect makeBareWing(const std::string& name, const WingParameters& wing, const Planform& planform) {

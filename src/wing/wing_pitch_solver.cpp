@@ -6,14 +6,18 @@ namespace monarch_flight {
 
 WingPitchSolver::WingPitchSolver(Side side, const Insect& insect, double gravity,
                                  const Newmark& newmark)
-    : side_(side), insect_(insect), gravity_(gravity), newmark_(newmark) {
+    : side_(side),
+      insect_(insect),
+      gravity_(gravity),
+      newmark_(newmark),
+      hinge_(insect.wings[side]) {
   if (!(wing().plate.J(1, 1) > 0.0)) {
     throw std::invalid_argument("the wing's moment of inertia J_yy must be positive");
   }
 }
 
-double WingPitchSolver::momentWithoutSpring(const BodyState& body, JointAngles angles,
-                                            const Loads& loads) const {
+double WingPitchSolver::momentWithoutHinge(const BodyState& body, JointAngles angles,
+                                           const Loads& loads) const {
   // Everything but J_yy theta'': the wing's motion with theta'' = 0.
   angles.wings[side_].theta.qdd = 0.0;
   const WingMotion motion = wingMotion(side_, insect_, body, angles);
@@ -27,19 +31,15 @@ double WingPitchSolver::momentWithoutSpring(const BodyState& body, JointAngles a
 
 double WingPitchSolver::acceleration(const BodyState& body, const JointAngles& angles,
                                      const Loads& loads, double rest_angle) const {
-  const double spring =
-      -wing().kappa * (angles.wings[side_].theta.q - (wing().theta_0 + rest_angle));
-  return (momentWithoutSpring(body, angles, loads) + spring) / wing().plate.J(1, 1);
+  return hinge_.acceleration(wing().plate.J(1, 1), momentWithoutHinge(body, angles, loads),
+                             angles.wings[side_].theta, rest_angle);
 }
 
 Coordinate WingPitchSolver::step(const Coordinate& n, const BodyState& body,
                                  const JointAngles& angles, const Loads& loads,
                                  double rest_angle) const {
-  const double unaccelerated = newmark_.advance(n, 0.0).q;
-  const double spring = -wing().kappa * (unaccelerated - (wing().theta_0 + rest_angle));
-  const double stiffness = wing().kappa * newmark_.beta * newmark_.dt * newmark_.dt;
-  return newmark_.advance(
-      n, (momentWithoutSpring(body, angles, loads) + spring) / (wing().plate.J(1, 1) + stiffness));
+  return hinge_.step(newmark_, n, wing().plate.J(1, 1), momentWithoutHinge(body, angles, loads),
+                     rest_angle);
 }
 
 }  // namespace monarch_flight

@@ -113,6 +113,25 @@ TEST_F(CaseTest, ACaseThatHoldsItselfIsRefused) {
   expectHas(faults(write("deeper.yaml", "a: " + std::string(100000, '['))), "nested deeper");
 }
 
+TEST_F(CaseTest, AdditionsToTheHinge) {
+  const auto with = [&](const std::string& additions) {
+    return faultsWith("hinge", "kappa: 9.0e-6",
+                      "kappa: 9.0e-6\n    hinge_additions: {" + additions + "}");
+  };
+  EXPECT_EQ(with("damping: 1e-9, cubic_stiffness: 1e-6"), "");
+  EXPECT_EQ(with("stop_low: -1, stop_stiffness: 1e-5"), "");
+  const std::string all =
+      with("damping: -1, cubic_stiffness: -2, stop_low: 1, stop_high: 0.5, stop_stiffness: -3");
+  for (const char* part : {"insect/wing/hinge_additions/damping = -1 N m s/rad: must be >= 0",
+                           "hinge_additions/cubic_stiffness = -2 N m/rad3: must be >= 0",
+                           "hinge_additions/stop_stiffness = -3 N m/rad: must be >= 0",
+                           "hinge_additions/stop_low = 1 rad: must be < stop_high"})
+    expectHas(all, part);
+  expectHas(with("stop_low: -60, stop_stiffness: 1e-5"), "stop_low = -60 rad: must be within +-pi");
+  expectHas(with("stop_high: 1"), "stop_stiffness = 0 N m/rad: must be > 0 where there is a stop");
+  expectHas(with("dampng: 1"), "insect/wing/hinge_additions/dampng");
+}
+
 TEST_F(CaseTest, NonPhysicalValues) {
   expectHas(faultsWith("hinge", "mass: 6.0e-7", "mass: -6.0e-7"), "insect/wing/mass = -6e-07 kg");
   expectHas(faultsWith("hinge", "mass: 6.0e-7", "mass: 0"),

@@ -197,6 +197,22 @@ TEST_F(CaseTest, AStiffHingeOfOneWingIsRefused) {
   EXPECT_EQ(fault.find("insect/wing/kappa"), std::string::npos) << fault;
 }
 
+TEST_F(CaseTest, AdditionsCountInTheStiffnessOfTheHinge) {
+  const auto with = [&](const std::string& wing) {
+    return faults(
+        write("stiff.yaml", replaced(monarch(fourier("[1.3, 0, -0.562]")), "monarch_paper",
+                                     "monarch_paper, wing: {kappa: 0, " + wing + "}")));
+  };
+  EXPECT_EQ(with("hinge_additions: {damping: 700}"), "");  // it does not swing
+  for (const char* additions :
+       {"cubic_stiffness: 233.333333333", "stop_high: 1, stop_stiffness: 700"}) {
+    const std::string text = with("hinge_additions: {" + std::string(additions) + "}");
+    expectHas(text,
+              "kappa = 0 N m/rad with its hinge_additions: the free wing swings in 2.92086e-05");
+    expectHas(text, "take kappa + 3 cubic_stiffness + stop_stiffness <= ");
+  }
+}
+
 TEST_F(CaseTest, AWingThatTurnsTooFarInAStepIsRefused) {
   const auto started = [&](double rate, int steps) {
     std::ostringstream text;

@@ -43,6 +43,8 @@ TEST_F(CaseTest, ClimbIsThePapersFlight) {
   EXPECT_DOUBLE_EQ(c.insect.wings.right.plate.m, 36.25e-6);
   EXPECT_EQ(c.insect.wings.left.plate.nu, c.insect.wings.right.plate.nu);  // as its mirror image
   EXPECT_DOUBLE_EQ(c.insect.wings.right.kappa, 1.5e-4);
+  EXPECT_FALSE(c.insect.wings.right.additions.any());
+  EXPECT_NE(c.resolved_yaml.find("stop_high: none"), std::string::npos);
   EXPECT_DOUBLE_EQ(c.insect.beta, 25.4292 * M_PI / 180.0);
   EXPECT_EQ(c.coupling.prescribed_steps, 10);
   EXPECT_EQ(c.coupling.tolerance, 1e-8);

@@ -116,6 +116,8 @@ Case asymmetric(bool image) {
     YAML::Node damaged = root["insect"][image ? "right_wing" : "left_wing"];
     damaged["tip_lost"] = 0.2;
     damaged["kappa"] = 4e-5;
+    damaged["hinge_additions"]["damping"] = 1e-7;
+    damaged["hinge_additions"]["cubic_stiffness"] = 5e-5;
     root["fluid"]["wind"] = std::vector<double>{0.2, sign * 1.0, -0.1};
     root["initial"]["roll"] = sign * 0.2;
     root["initial"]["yaw_dot"] = sign * -3.0;

@@ -22,6 +22,7 @@ struct WingParameters {
   double beta = 0.0;            ///< stroke plane angle [rad]
   double kappa = 0.0;           ///< hinge stiffness [N m/rad]
   double theta_0 = 0.0;         ///< rest angle of the hinge [rad]
+  HingeAdditions additions;     ///< to the linear spring
 };
 
 /// A flat-plate wing of uniform areal density.

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,24 @@ struct Appendage {
       Eigen::Vector3d::Zero();  ///< joint in body axes F_B, from the body's mass centre [m]
 };
 
+/// What a hinge has beside the paper's linear spring; all of it zero or none: nothing. wing/hinge.h
+/// has the law.
+struct HingeAdditions {
+  double damping = 0.0;                       ///< of a damper [N m s/rad]
+  double cubic_stiffness = 0.0;               ///< of a stiffening spring [N m/rad^3]
+  std::optional<double> stop_low, stop_high;  ///< pitch at which the stops begin [rad]
+  double stop_stiffness = 0.0;                ///< of the springs behind the stops [N m/rad]
+
+  bool any() const { return damping != 0.0 || cubic_stiffness != 0.0 || stop_low || stop_high; }
+};
+
 /// A wing with its hinge; the left one as its mirror image (state.h).
 struct Wing {
   Appendage plate;       ///< own axes; `mu` is the wing's root
   Planform planform;     ///< own axes
   double kappa = 0.0;    ///< hinge stiffness kappa_T [N m/rad]
   double theta_0 = 0.0;  ///< rest angle of the hinge [rad]
+  HingeAdditions additions;
 };
 
 /// Constant model of the insect (or of a bare wing: massless body and abdomen, one wing).

@@ -16,6 +16,7 @@ COMMANDS = {
     "render-field": "renders the flow of a run",
     "sweep": "flies a case over a parameter of the insect",
     "trim": "finds a periodic flight, fits, or designs a controller",
+    "identify": "finds parameters of a case from a measured angle",
     "settle": "tells whether a led flight has settled, and stores its periodic flight",
     "inverse-dynamics": "the torques that a flown motion needs, and the nearest spring",
     "study-control": "studies how well a controller holds",

@@ -111,6 +111,25 @@ std::optional<Planform> readPlanform(Section section, Faults& faults) {
 
 namespace {
 
+/// Section `hinge_additions` of a wing. Of a wing of its own (`own`) keys that are not there keep
+/// what `additions` has.
+void readAdditions(Section section, bool own, HingeAdditions& additions) {
+  const auto number = [&](const char* name, const char* unit, double& value) {
+    if (!own || section.has(name))
+      value = section.number(name, {Bound::kAny, unit, "0: the paper's hinge"});
+  };
+  const auto stop = [&](const char* name, std::optional<double>& value) {
+    if (!own || section.has(name))
+      value = section.maybeNumber(name, {Bound::kAny, "rad", "none: there is no stop"});
+  };
+  number("damping", "N m s/rad", additions.damping);
+  number("cubic_stiffness", "N m/rad3", additions.cubic_stiffness);
+  stop("stop_low", additions.stop_low);
+  stop("stop_high", additions.stop_high);
+  number("stop_stiffness", "N m/rad", additions.stop_stiffness);
+  section.finish();
+}
+
 /// What one wing of two has of its own, in section `right_wing` or `left_wing`: keys that are not
 /// there are those of both wings, in `wing`.
 void readOwnWing(Section& insect, const std::string& key, WingParameters both, Wing& wing,
@@ -124,6 +143,7 @@ void readOwnWing(Section& insect, const std::string& key, WingParameters both, W
   if (w.has("root")) both.root = w.vector3("root", "m");
   own("kappa", "N m/rad", both.kappa);
   own("theta_0", "rad", both.theta_0);
+  if (w.has("hinge_additions")) readAdditions(w.section("hinge_additions"), true, both.additions);
   std::optional<Planform> planform = wing.planform;
   if (w.has("planform")) planform = readPlanform(w.section("planform"), faults);
   double lost = 0.0;
@@ -168,6 +188,7 @@ std::optional<Insect> readInsect(Section section, bool mirrored, Faults& faults)
   if (!bare) wing.root = w.vector3("root", "m");
   wing.kappa = w.number("kappa", {Bound::kAny, "N m/rad", ""});
   wing.theta_0 = w.number("theta_0", {Bound::kAny, "rad", ""});
+  readAdditions(w.section("hinge_additions"), false, wing.additions);
   const auto planform = readPlanform(w.section("planform"), faults);
   w.finish();
   // Bounds are checked even when other keys are faulty: all faults at once.

@@ -11,7 +11,16 @@ namespace {
 
 // In a natural period of the hinge: theta_R is then 10 % off (docs/case_files.md, time).
 constexpr double kLeastSteps = 10.0;
+constexpr double kFar = 1.0;       // from rest, where a stiffening spring counts [rad]
 constexpr double kMostTurn = 1.0;  // of the wing in a step [rad]: six steps in a turn
+
+/// Of the hinge where the wing is far from rest (kFar), stops included [N m/rad].
+double stiffest(const Wing& wing) {
+  const HingeAdditions& more = wing.additions;
+  const bool stops = more.stop_low || more.stop_high;
+  return wing.kappa + 3.0 * more.cubic_stiffness * kFar * kFar +
+         (stops ? more.stop_stiffness : 0.0);
+}
 
 /// Of the wing about its hinge, in air [kg m2].
 double hingeInertia(const Case& c, const Wing& wing) {
@@ -23,10 +32,11 @@ void checkHinge(const Case& c, const Wing& wing, const char* section, Faults& fa
   const double period = hingePeriod(c, wing), longest = period / kLeastSteps;
   if (period == 0.0 || c.time.dt <= longest) return;
   std::ostringstream text;
-  text << "insect/" << section << "/kappa = " << wing.kappa << " N m/rad: the free wing swings in "
+  text << "insect/" << section << "/kappa = " << wing.kappa << " N m/rad"
+       << (wing.additions.any() ? " with its hinge_additions" : "") << ": the free wing swings in "
        << period << " s on this hinge: must be at least " << kLeastSteps
-       << " steps of dt = " << c.time.dt
-       << " s, else the time step makes its swings; take kappa <= "
+       << " steps of dt = " << c.time.dt << " s, else the time step makes its swings; take "
+       << (wing.additions.any() ? "kappa + 3 cubic_stiffness + stop_stiffness <= " : "kappa <= ")
        << hingeInertia(c, wing) * std::pow(2.0 * M_PI / (kLeastSteps * c.time.dt), 2) << ", or "
        << shorterSteps(c, longest);
   faults.add(text.str());
@@ -45,8 +55,9 @@ void checkTurns(const Case& c, Faults& faults) {
 }  // namespace
 
 double hingePeriod(const Case& c, const Wing& wing) {
-  if (!c.free[kThetaR] || !(wing.kappa > 0.0)) return 0.0;
-  return 2.0 * M_PI * std::sqrt(hingeInertia(c, wing) / wing.kappa);
+  const double stiffness = stiffest(wing);
+  if (!c.free[kThetaR] || !(stiffness > 0.0)) return 0.0;
+  return 2.0 * M_PI * std::sqrt(hingeInertia(c, wing) / stiffness);
 }
 
 std::string shorterSteps(const Case& c, double dt) {

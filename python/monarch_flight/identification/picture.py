@@ -1,0 +1,41 @@
+"""The picture of an identification: measured and flown angle over the flap, and their difference."""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+COLOURS = ("tab:green", "tab:orange", "tab:blue", "tab:red", "tab:purple")
+
+
+def by_flap(comparison):
+    """Rows of each flap: phase in it from 0 to 1, and the rows."""
+    numbers = np.ceil(comparison.phase - 1e-9).astype(int)
+    for flap in np.unique(numbers):
+        rows = np.flatnonzero(numbers == flap)
+        yield flap, comparison.phase[rows] - (flap - 1), rows
+
+
+def draw(study, found, path):
+    with plt.rc_context({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "savefig.dpi": 160}):
+        figure, (above, below) = plt.subplots(2, 1, figsize=(7, 5.6), sharex=True, constrained_layout=True,
+                                              gridspec_kw=dict(height_ratios=(2, 1)))
+        for _, phase, rows in by_flap(found[-1].comparison):
+            above.plot(phase, found[-1].comparison.measured[rows], color="black", lw=1.8)
+        above.plot([], [], color="black", lw=1.8, label=f"measured ({study.measured.source})")
+        for one, colour in zip(found, COLOURS[-len(found):] if len(found) > len(COLOURS) else COLOURS):
+            curves(one, above, below, colour)
+        below.axhline(0, color="black", lw=0.8)
+        above.set(ylabel=f"{study.measured.angle} [deg]", xlim=(0, 1))
+        below.set(ylabel="flown less measured [deg]", xlabel="t/T in the flap")
+        above.legend(fontsize=8)
+        figure.savefig(path)
+        plt.close(figure)
+
+
+def curves(one, above, below, colour):
+    comparison = one.comparison
+    for n, (_, phase, rows) in enumerate(by_flap(comparison)):
+        style = dict(color=colour, lw=1.4, alpha=1.0 if n == 0 else 0.6)
+        above.plot(phase, comparison.flown[rows], label=f"{one.stage.name}: rms {comparison.rms:.1f} deg" if n == 0 else None, **style)
+        below.plot(phase, comparison.residuals[rows], **style)
