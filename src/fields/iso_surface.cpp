@@ -9,18 +9,36 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace monarch_flight {
 namespace {
 
-vtkSmartPointer<vtkFloatArray> floats(const char* name, const std::vector<std::int16_t>& whole,
-                                      float step) {
+/// A field of the picture as numbers [1/s], half of each from its neighbours along each axis: the
+/// numbers of the grid would make lumps.
+std::vector<float> softened(const FlowPicture& picture, const std::vector<std::int16_t>& whole) {
+  std::vector<float> values;
+  for (std::int16_t number : whole) values.push_back(picture.step * static_cast<float>(number));
+  std::size_t stride = 1;
+  for (std::size_t n : picture.size) {
+    const std::vector<float> before = values;
+    for (std::size_t at = 0; at < values.size(); ++at) {
+      const std::size_t i = at / stride % n;
+      const float low = before[i > 0 ? at - stride : at];
+      const float high = before[i + 1 < n ? at + stride : at];
+      values[at] = 0.5f * before[at] + 0.25f * (low + high);
+    }
+    stride *= n;
+  }
+  return values;
+}
+
+vtkSmartPointer<vtkFloatArray> floats(const char* name, const std::vector<float>& values) {
   auto out = vtkSmartPointer<vtkFloatArray>::New();
   out->SetName(name);
-  out->SetNumberOfValues(static_cast<vtkIdType>(whole.size()));
-  for (std::size_t i = 0; i < whole.size(); ++i)
-    out->SetValue(static_cast<vtkIdType>(i), step * static_cast<float>(whole[i]));
+  out->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), out->GetPointer(0));
   return out;
 }
 
@@ -30,8 +48,8 @@ vtkSmartPointer<vtkImageData> imageOf(const FlowPicture& picture) {
   image->SetDimensions(n(0), n(1), n(2));
   image->SetOrigin(picture.origin[0], picture.origin[1], picture.origin[2]);
   image->SetSpacing(picture.spacing, picture.spacing, picture.spacing);
-  image->GetPointData()->SetScalars(floats("q_root", picture.q_root, picture.step));
-  image->GetPointData()->AddArray(floats("omega_y", picture.omega_y, picture.step));
+  image->GetPointData()->SetScalars(floats("q_root", softened(picture, picture.q_root)));
+  image->GetPointData()->AddArray(floats("omega_y", softened(picture, picture.omega_y)));
   return image;
 }
 

@@ -48,7 +48,7 @@ bool same(const ColourScales& a, const ColourScales& b) {
 
 FlowView::FlowView()
     : names_(RunNames::ofThisNode()),
-      q_level_(parameter("q_level", 0.1, isQLevel, "above 0")),
+      q_level_(parameter("q_level", 0.04, isQLevel, "above 0")),
       slice_at_(parameter("slice_at", 0.5, isShare, "in [0, 1]")) {
   if (!hasIsoSurfaces())
     ROS_WARN("this build has no VTK: no vortices are shown (scripts/install view, build again)");

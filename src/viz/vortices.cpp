@@ -41,7 +41,7 @@ double largestVorticity(const FlowPicture& picture, double q) {
       sizes.push_back(std::abs(int{picture.omega_y[n]}));
   }
   if (sizes.empty()) return 0.0;
-  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(0.98 * double(sizes.size() - 1));
+  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(0.85 * double(sizes.size() - 1));
   std::nth_element(sizes.begin(), at, sizes.end());
   return double(picture.step) * *at;
 }

@@ -82,7 +82,7 @@ class Camera(unittest.TestCase):
         flight = climb()
         focus, position, up = views.Camera(flight, "side", 2.0).at(0.15)
         np.testing.assert_allclose(focus[:2], (0.0, 0.15), atol=0.005)
-        self.assertLess(abs(focus[2]), 0.002)  # of a bob of 20 mm
+        self.assertAlmostEqual(focus[2], -2.0 * views.BELOW, delta=0.002)  # of a bob of 20 mm
         self.assertAlmostEqual(2.0, np.linalg.norm(position - focus), places=9)
         self.assertGreater(position[0], 1.9)  # to the right of a flight to the north
         np.testing.assert_allclose(up, (0, 0, 1))

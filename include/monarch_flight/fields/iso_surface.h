@@ -19,8 +19,9 @@ struct IsoSurface {
 /// Whether this build can make one: it has VTK.
 bool hasIsoSurfaces();
 
-/// The surface Q = q (> 0) [1/s^2] by VTK's flying edges. With more than `most` triangles every
-/// second point of the picture is left out, and again, until there are no more. Empty without VTK.
+/// The surface Q = q (> 0) [1/s^2] by VTK's flying edges, of the picture made a little softer. With
+/// more than `most` triangles every second point of the picture is left out, and again, until there
+/// are no more. Empty without VTK.
 IsoSurface isoSurface(const FlowPicture& picture, double q, std::size_t most);
 
 }  // namespace monarch_flight

@@ -49,7 +49,7 @@ class FlowScene {
 
   Case case_;
   double q_unit_;  // (U / c)^2 [1/s^2]
-  double q_level_ = 0.1;
+  double q_level_ = 0.04;
   PerWing<WingPressure> wings_;
   PerWing<std::optional<ros::Time>> pressure_stamp_, flow_stamp_;
   PerWing<FlowPicture> flow_;

@@ -13,7 +13,7 @@ struct VortexLook {
   Eigen::Vector3d light{0, 0, -1};  ///< from where it comes, in the axes of the wing; length 1
 };
 
-/// A large |vorticity along the span| of the points with Q > q: 98 % of them have less [1/s].
+/// A large |vorticity along the span| of the points with Q > q: 85 % of them have less [1/s].
 double largestVorticity(const FlowPicture& picture, double q);
 
 /// Triangles coloured by the vorticity along the span, each vertex darkened a little away from the

@@ -48,7 +48,7 @@ class Scales:
 
     def largest_cp(self, flight):
         values = [np.abs(pressure(m)[:, 4:]).ravel() for s in flight.pressure.values() for m in s.messages[1:]]
-        return nice(self.per_pascal * np.percentile(np.concatenate(values), 97)) if values else None
+        return nice(self.per_pascal * np.percentile(np.concatenate(values), 96)) if values else None
 
     def largest_omega(self, flight):
         found = []
@@ -57,7 +57,7 @@ class Scales:
                 block = Block(message)
                 found.append(np.abs(block.omega[block.q_root > self.q**0.5]))
         found = np.concatenate(found) if found else np.zeros(0)
-        return nice(np.percentile(found, 95)) if len(found) else None
+        return nice(np.percentile(found, 80)) if len(found) else None
 
 
 class Film:
@@ -100,10 +100,10 @@ class Film:
 
     def add_legends(self, cp, omega):
         _, height = (self.stage.sharp * n for n in self.wanted["size"])
-        x = 0.03
+        x = 0.765
         if self.flight.pressure and self.wanted["wings"] == "pressure":
             self.renderer.AddActor2D(scene.bar(cp, "pressure coefficient", self.theme[4], x, height))
-            x += 0.28
+            x -= 0.25
         if self.flight.flow:
             self.renderer.AddActor2D(scene.bar(omega, "vorticity along the span [1/s]", self.theme[4], x, height))
         self.caption = scene.words("", int(0.034 * height), self.theme[4], 0.03 * height, 0.94 * height)

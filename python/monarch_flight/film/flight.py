@@ -57,6 +57,15 @@ def pressure(cloud):
     return rows[:, [0, 1, 3, 4, 5, 6]].astype(float)
 
 
+def softened(values, size):
+    out = values.reshape(size[::-1])
+    for axis in range(3):
+        padded = np.pad(out, [(1, 1) if a == axis else (0, 0) for a in range(3)], mode="edge")
+        low, high = (np.take(padded, range(i, i + out.shape[axis]), axis=axis) for i in (0, 2))
+        out = 0.5 * out + 0.25 * (low + high)
+    return out.ravel()
+
+
 class Block:
     """Vortices around a wing (FlowBlock.msg), in its axes."""
 
@@ -66,6 +75,22 @@ class Block:
         self.spacing = message.spacing
         self.q_root = message.step * np.asarray(message.q_root, dtype=np.float32)  # sign(Q) sqrt(|Q|) [1/s]
         self.omega = message.step * np.asarray(message.vorticity, dtype=np.float32)  # along the span [1/s]
+
+    def softened(self):
+        """Each number with half of it from its neighbours along each axis: the numbers of a grid make lumps."""
+        out = object.__new__(Block)
+        out.__dict__.update(self.__dict__)
+        out.q_root, out.omega = softened(self.q_root, self.size), softened(self.omega, self.size)
+        return out
+
+    def mirrored(self):
+        """Seen in the mirror y = 0; the vorticity along y stays."""
+        out = object.__new__(Block)
+        nx, ny, nz = out.size = self.size
+        out.spacing = self.spacing
+        out.origin = self.origin * (1, -1, 1) - (0, (ny - 1) * self.spacing, 0)
+        out.q_root, out.omega = (values.reshape(nz, ny, nx)[:, ::-1].ravel() for values in (self.q_root, self.omega))
+        return out
 
     def towards(self, other, share):
         """The mean of two blocks at the same places."""
@@ -118,6 +143,13 @@ class Flight:
         return 1.0 / frequency if frequency else None
 
     @property
+    def softened(self):
+        """Each number with half of it from its neighbours along each axis: the numbers of a grid make lumps."""
+        out = object.__new__(Block)
+        out.__dict__.update(self.__dict__)
+        out.q_root, out.omega = softened(self.q_root, self.size), softened(self.omega, self.size)
+        return out
+
     def mirrored(self):
         return "left_wing" not in self.pressure and "left_wing" not in self.flow
 
@@ -140,12 +172,13 @@ class Flight:
         return rows
 
     def block(self, wing, t):
-        """The flow around a wing, and -1 where y of it is that of the mirror image, else 1; None without flow."""
+        """The flow around a wing, in its true axes; None where there is none."""
         series, image = self.source(self.flow, wing)
         if not series or not series.times[0] <= t + 1e-9:
             return None
         low, high, share = series.around(t)
-        return Block(low).towards(Block(high), share), image
+        found = Block(low).towards(Block(high), share)
+        return (found if image > 0 else found.mirrored()).softened()
 
     def source(self, kind, wing):
         if self.mirrored:

@@ -7,7 +7,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
-from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFlyingEdges3D, vtkPolyDataNormals, vtkTubeFilter
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFlyingEdges3D, vtkPolyDataNormals, vtkTubeFilter, vtkWindowedSincPolyDataFilter
 from vtkmodules.vtkFiltersSources import vtkLineSource
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
@@ -118,11 +118,18 @@ class Vortices:
     def __init__(self, lookup, opacity):
         self.image, self.edges = vtkImageData(), vtkFlyingEdges3D()
         self.edges.SetInputData(self.image)
-        self.edges.ComputeNormalsOn()
+        self.edges.ComputeNormalsOff()
         self.edges.ComputeScalarsOff()
         self.edges.InterpolateAttributesOn()
+        smooth = vtkWindowedSincPolyDataFilter()
+        smooth.SetInputConnection(self.edges.GetOutputPort())
+        smooth.SetNumberOfIterations(12)
+        smooth.SetPassBand(0.08)
+        normals = vtkPolyDataNormals()
+        normals.SetInputConnection(smooth.GetOutputPort())
+        normals.SplittingOff()
         mapper = vtkPolyDataMapper()
-        mapper.SetInputConnection(self.edges.GetOutputPort())
+        mapper.SetInputConnection(normals.GetOutputPort())
         mapper.SetScalarModeToUsePointFieldData()
         mapper.SelectColorArray("omega")
         mapper.SetLookupTable(lookup)
@@ -140,18 +147,17 @@ class Vortices:
         self.actor.SetVisibility(found is not None)
         if found is None:
             return
-        block, image = found
-        self.image.SetDimensions(*block.size)
-        self.image.SetOrigin(*block.origin)
-        self.image.SetSpacing(*3 * (block.spacing,))
-        for name, values in (("q_root", block.q_root), ("omega", block.omega)):
+        self.image.SetDimensions(*found.size)
+        self.image.SetOrigin(*found.origin)
+        self.image.SetSpacing(*3 * (found.spacing,))
+        for name, values in (("q_root", found.q_root), ("omega", found.omega)):
             array = numpy_to_vtk(values, deep=True)
             array.SetName(name)
             self.image.GetPointData().AddArray(array)
         self.image.GetPointData().SetActiveScalars("q_root")
         self.image.Modified()
         self.edges.SetValue(0, q**0.5)
-        place(self.actor, pose @ np.diag([1.0, image, 1.0, 1.0]))
+        place(self.actor, pose)
 
 
 def tube(points, radius, colour):
@@ -218,9 +224,9 @@ def bar(lookup, title, colour, x, height):
     legend.SetOrientationToHorizontal()
     legend.SetNumberOfLabels(3)
     legend.SetLabelFormat("%.4g")
-    legend.SetPosition(x, 0.03)
-    legend.SetWidth(0.24)
-    legend.SetHeight(0.11)
+    legend.SetPosition(x, 0.875)
+    legend.SetWidth(0.21)
+    legend.SetHeight(0.105)
     legend.SetBarRatio(0.22)
     legend.SetTextPositionToPrecedeScalarBar()
     legend.UnconstrainedFontSizeOn()

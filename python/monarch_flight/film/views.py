@@ -2,6 +2,7 @@
 import numpy as np
 
 # Towards the camera, seen from the body: to its right, forward, up. Views are told for a flight to the north.
+BELOW = 0.055  # of the distance: the body stands above the middle of the picture, its wake below
 VIEWS = {
     "oblique": (0.80, 0.62, 0.42),
     "side": (1.0, 0.0, 0.06),
@@ -31,6 +32,7 @@ class Camera:
         steps = int(round((flight.period or flight.duration) / max(1e-9, self.times[1] - self.times[0])))
         self.path = smooth(places, steps)
         self.toward, self.distance, self.chases = np.array(VIEWS[view]), distance, view == "chase"
+        self.path[:, 2] -= BELOW * distance * (view != "top")
         self.headings = self.unwound(flight, steps)
 
     def unwound(self, flight, steps):
