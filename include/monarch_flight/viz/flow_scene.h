@@ -14,7 +14,6 @@ namespace monarch_flight {
 /// the pictures of the right wing serve both. Frames of the markers: viz/frames.h, plain.
 class FlowScene {
  public:
-  /// `c` must outlive nothing: it is copied.
   explicit FlowScene(const Case& c);
 
   /// Takes a picture of the pressure. False: it is none.
