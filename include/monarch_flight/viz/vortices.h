@@ -9,7 +9,7 @@ namespace monarch_flight {
 /// How vortices are shown.
 struct VortexLook {
   double limit = 1.0;               ///< colours run from -limit to limit [1/s]
-  float opacity = 0.7f;             ///< 0 to 1
+  float opacity = 1.0f;             ///< 0 to 1; below 1 rviz draws triangles in any order
   Eigen::Vector3d light{0, 0, -1};  ///< from where it comes, in the axes of the wing; length 1
 };
 
