@@ -1,13 +1,13 @@
-# Files of the flow for ParaView. VTK is wanted for them alone: without it the rest is built, and a
-# case that asks for fields is refused.
+# Files of the flow for ParaView, and surfaces of vortices for rviz. VTK is wanted for them alone: without it the
+# rest is built, a case that asks for fields is refused, and rviz shows no vortices.
 file(GLOB fields_files CONFIGURE_DEPENDS src/fields/*.cpp src/fields/*.h include/monarch_flight/fields/*.h)
 monarch_forbid_ros(fields ${fields_files})
-find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel IOXML)
+find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel FiltersCore IOXML)
 if(VTK_FOUND)
-  add_library(monarch_fields SHARED src/fields/field_output.cpp src/fields/vtk_data.cpp)
-  target_link_libraries(monarch_fields PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
+  add_library(monarch_fields SHARED src/fields/field_output.cpp src/fields/iso_surface.cpp src/fields/vtk_data.cpp)
+  target_link_libraries(monarch_fields PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::FiltersCore VTK::IOXML)
 else()
-  message(STATUS "VTK not found (scripts/install fields): built without files of the flow")
+  message(STATUS "VTK not found (scripts/install fields): built without files of the flow and surfaces of vortices")
   add_library(monarch_fields SHARED src/fields/without_vtk.cpp)
 endif()
 target_include_directories(monarch_fields PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)

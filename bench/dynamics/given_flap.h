@@ -29,7 +29,6 @@ class GivenLoads : public FluidModel {
   FluidReport report() const override { return {}; }
   long cells() const override { return 0; }
   SurfacePressure surfacePressure() const override { return {}; }
-  std::vector<VortexPoint> vortices(double, int) const override { return {}; }
 
  private:
   std::function<Loads(double t)> loads_;

@@ -179,17 +179,15 @@ void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
   Request request = last.request;
   request.key.phase = Phase::kCommit;
   const PictureSettings& pictures = settings_.pictures;
-  const bool surface = due(out.step, pictures.surface_every);
-  const bool vortices = due(out.step, pictures.vortices_every);
-  request.q_threshold = pictures.q_threshold;
-  request.vortex_limit = pictures.vortex_limit;
   Request to_fluid = request;
-  to_fluid.want_fields = surface || vortices;
-  to_fluid.want_flow = due(out.step, pictures.flow_every);
+  to_fluid.want_surface = due(out.step, pictures.surface_every);
+  if (due(out.step, pictures.flow_every))
+    to_fluid.block_points = static_cast<std::uint32_t>(pictures.flow_points);
+  to_fluid.want_flow = due(out.step, pictures.fields_every);
   PerWing<Reply> air = askAir(to_fluid, out);
   for (Side side : kSides) {
-    if (surface) out.surface[side] = std::move(air[side].surface);
-    if (vortices) out.vortices[side] = std::move(air[side].vortices);
+    out.surface[side] = std::move(air[side].surface);
+    out.picture[side] = std::move(air[side].picture);
     out.flow[side] = std::move(air[side].flow);
   }
   ask(Role::kFlight, request, out);

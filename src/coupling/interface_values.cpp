@@ -83,15 +83,14 @@ bool same(const Request& a, const Request& b) {
          prescribedValues(a.prescribed) == prescribedValues(b.prescribed) &&
          same(a.interface, b.interface) && same(a.loads.right, b.loads.right) &&
          same(a.loads.left, b.loads.left) && a.want_operator == b.want_operator &&
-         a.want_fields == b.want_fields && a.q_threshold == b.q_threshold &&
-         a.vortex_limit == b.vortex_limit && a.want_flow == b.want_flow;
+         a.want_surface == b.want_surface && a.block_points == b.block_points &&
+         a.want_flow == b.want_flow;
 }
 
 bool isAttitude(const Quaternion& q) { return std::abs(q.squaredNorm() - 1.0) <= 1e-6; }
 
 bool finite(const Request& request) {
-  return std::isfinite(request.t) && std::isfinite(request.q_threshold) &&
-         prescribedValues(request.prescribed).allFinite() &&
+  return std::isfinite(request.t) && prescribedValues(request.prescribed).allFinite() &&
          interfaceValues(request.interface).allFinite() && finite(request.loads.right) &&
          finite(request.loads.left);
 }

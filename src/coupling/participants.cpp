@@ -38,10 +38,9 @@ void FluidParticipant::onIterate(const Request& request, Reply& reply) {
 void FluidParticipant::onCommit(const Request& request, Reply& reply) {
   fluid_->commit();
   reply.report = fluid_->report();
+  if (request.want_surface) reply.surface = fluid_->surfacePressure();
+  if (request.block_points > 0) reply.picture = fluid_->flowPicture(request.block_points);
   if (request.want_flow) reply.flow = fluid_->flowField();
-  if (!request.want_fields) return;
-  reply.surface = fluid_->surfacePressure();
-  reply.vortices = fluid_->vortices(request.q_threshold, request.vortex_limit);
 }
 
 void FluidParticipant::memory(StateVisitor& state) {

@@ -54,10 +54,12 @@ std::vector<std::string> CouplingSettings::problems() const {
   if (!positive(length_scale)) {
     faults.push_back(fault("length_scale", length_scale, "above 0 m", "use the wing's mean chord"));
   }
-  if (pictures.surface_every < 0 || pictures.vortices_every < 0 || pictures.flow_every < 0 ||
-      pictures.vortex_limit < 0) {
-    faults.push_back("pictures: steps between them and points must be at least 0 (0: never)");
+  if (pictures.surface_every < 0 || pictures.flow_every < 0 || pictures.fields_every < 0) {
+    faults.push_back("pictures: steps between them must be at least 0 (0: never)");
   }
+  if (pictures.flow_every > 0 && pictures.flow_points < 8)
+    faults.push_back(
+        fault("pictures.flow_points", pictures.flow_points, "at least 8", "40000 is usual"));
   return faults;
 }
 

@@ -1,4 +1,5 @@
 #include "monarch_flight/fields/field_output.h"
+#include "monarch_flight/fields/iso_surface.h"
 #include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
@@ -8,5 +9,9 @@ std::unique_ptr<StepSink> makeFieldOutput(const Case& c, const std::string&, Sta
                    ": this build has no VTK, which writes the fields; must be 0, or run "
                    "scripts/install fields and build again");
 }
+
+bool hasIsoSurfaces() { return false; }
+
+IsoSurface isoSurface(const FlowPicture&, double, std::size_t) { return {}; }
 
 }  // namespace monarch_flight

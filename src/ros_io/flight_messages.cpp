@@ -5,12 +5,12 @@
 #include <cstdint>
 
 #include "monarch_flight/flight/multibody_dynamics.h"
+#include "monarch_flight/ros_io/fluid_conversions.h"
 #include "monarch_flight/ros_io/step_conversions.h"
 #include "monarch_flight/viz/frames.h"
 #include "monarch_flight/viz/model_markers.h"
 #include "monarch_flight/viz/pressure_cloud.h"
 #include "monarch_flight/viz/urdf.h"
-#include "monarch_flight/viz/vortex_cloud.h"
 
 namespace monarch_flight {
 namespace {
@@ -81,6 +81,15 @@ geometry_msgs::WrenchStamped wrench(const PerWing<Loads>& all, bool left, const 
   return out;
 }
 
+// In the wing's true axes.
+FlowBlock flowBlock(const FlowPicture& picture, Side side, const ros::Time& stamp) {
+  const bool left = side == Side::kLeft;
+  FlowBlock out = toMessage(left ? mirrored(picture) : picture);
+  out.header.stamp = stamp;
+  out.header.frame_id = left ? frames::kLeftWing : frames::kRightWing;
+  return out;
+}
+
 /// Frames that a message names.
 template <class Message>
 auto nameFrames(Message& message, const RunNames& names)
@@ -107,10 +116,6 @@ void nameFrames(tf2_msgs::TFMessage& message, const RunNames& names) {
 template <class Message>
 StampedMessage prototype(const char* topic, bool latched = false) {
   return {topic, ros::Time(), Message(), latched};
-}
-
-bool due(std::uint32_t step, int every) {
-  return every > 0 && step % static_cast<std::uint32_t>(every) == 0;
 }
 
 }  // namespace
@@ -144,13 +149,14 @@ std::vector<StampedMessage> FlightMessages::topics() const {
       prototype<geometry_msgs::Vector3Stamped>(topics::kWind),
       prototype<geometry_msgs::WrenchStamped>(topics::kRightWrench),
       prototype<sensor_msgs::PointCloud2>(topics::kRightPressure, true),
-      prototype<sensor_msgs::PointCloud2>(topics::kVortices),
+      prototype<FlowBlock>(topics::kRightFlow, true),
       prototype<StepIterations>(topics::kIterations)};
   if (!case_.insect.bare_wing) {
     out.push_back(prototype<geometry_msgs::WrenchStamped>(topics::kLeftWrench));
   }
   if (!case_.mirrored) {
     out.push_back(prototype<sensor_msgs::PointCloud2>(topics::kLeftPressure, true));
+    out.push_back(prototype<FlowBlock>(topics::kLeftFlow, true));
   }
   name(out);
   return out;
@@ -181,7 +187,7 @@ std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
   const ros::Time stamp = stampOf(step.step, case_.time);
   const bool bare = case_.insect.bare_wing;
   std::vector<StampedMessage> out;
-  out.reserve(13);
+  out.reserve(15);
   rosgraph_msgs::Clock clock;
   clock.clock = stamp;
   tf2_msgs::TFMessage moving;
@@ -225,16 +231,17 @@ bool FlightMessages::growPath(const CommittedStep& step, const ros::Time& stamp)
 void FlightMessages::addPictures(const CommittedStep& step, const ros::Time& stamp,
                                  std::vector<StampedMessage>& out) const {
   for (Side side : case_.sides()) {
-    if (step.surface[side].facets.empty()) continue;
-    const char* topic = side == Side::kLeft ? topics::kLeftPressure : topics::kRightPressure;
-    out.push_back({topic, stamp, pressureCloud(step.surface[side], side, stamp), true});
-  }
-  bool flow = case_.fluid == FluidKind::kNavierStokes;
-  for (Side side : case_.sides())  // a plugin may have some
-    flow = flow || (case_.fluid == FluidKind::kPlugin && !step.vortices[side].empty());
-  if (flow && step.step > 0 && due(step.step, case_.output.vortices_every)) {
-    out.push_back(
-        {topics::kVortices, stamp, vortexCloud(step.vortices, case_.insect, step.angles, stamp)});
+    const bool left = side == Side::kLeft;
+    const SurfacePressure& surface = step.surface[side];
+    const FlowPicture& flow = step.picture[side];
+    if (!surface.facets.empty()) {
+      out.push_back({left ? topics::kLeftPressure : topics::kRightPressure, stamp,
+                     pressureCloud(surface, side, stamp), true});
+    }
+    if (!flow.empty()) {
+      out.push_back({left ? topics::kLeftFlow : topics::kRightFlow, stamp,
+                     flowBlock(flow, side, stamp), true});
+    }
   }
 }
 

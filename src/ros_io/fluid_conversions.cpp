@@ -10,6 +10,7 @@ namespace monarch_flight {
 namespace {
 
 using Points = std::vector<geometry_msgs::Point32>;
+constexpr std::uint64_t kLargestBlock = 1000000;  // points of one message
 static_assert(sizeof(geometry_msgs::Point32) == 3 * sizeof(float));
 
 // In the order of Kernel.
@@ -146,18 +147,26 @@ SurfacePressure::Facet fromMessage(const PressureFacet& facet) {
   return {facet.x, facet.y, facet.dx, facet.dy, facet.p_upper, facet.p_lower};
 }
 
-VortexSample toMessage(const VortexPoint& point) {
-  VortexSample out;
-  out.x = point.x;
-  out.y = point.y;
-  out.z = point.z;
-  out.q = point.q;
-  out.omega_y = point.omega_y;
+FlowBlock toMessage(const FlowPicture& block) {
+  FlowBlock out;
+  out.origin.x = block.origin[0];
+  out.origin.y = block.origin[1];
+  out.origin.z = block.origin[2];
+  out.spacing = block.spacing;
+  std::copy(block.size.begin(), block.size.end(), out.size.begin());
+  out.step = block.step;
+  out.q_root = block.q_root;
+  out.vorticity = block.omega_y;
   return out;
 }
 
-VortexPoint fromMessage(const VortexSample& sample) {
-  return {sample.x, sample.y, sample.z, sample.q, sample.omega_y};
+FlowPicture fromMessage(const FlowBlock& block) {
+  return {{block.origin.x, block.origin.y, block.origin.z},
+          block.spacing,
+          {block.size[0], block.size[1], block.size[2]},
+          block.step,
+          block.q_root,
+          block.vorticity};
 }
 
 WholeFlow toMessage(const FlowField& flow) {
@@ -197,6 +206,18 @@ std::string problem(const WholeFlow& flow) {
                     flow.pressure.size() == n && flow.q.size() == n;
   if (fits && !finite(flow)) return "a flow that is not finite";
   return fits ? "" : "a flow whose arrays do not fit its " + std::to_string(n) + " cells";
+}
+
+std::string problem(const FlowBlock& block) {
+  std::uint64_t n = 1;
+  for (std::uint32_t along : block.size) n = std::min<std::uint64_t>(n, kLargestBlock) * along;
+  const bool fits =
+      n > 0 && n <= kLargestBlock && block.q_root.size() == n && block.vorticity.size() == n;
+  if (!fits) return "a block of the flow whose fields do not fit its size";
+  const std::array<float, 4> numbers{block.origin.x, block.origin.y, block.origin.z, block.step};
+  const bool good = allFinite(numbers) && std::isfinite(block.spacing) && block.spacing > 0.0f &&
+                    block.step >= 0.0f;
+  return good ? "" : "a block of the flow that is not finite";
 }
 
 }  // namespace monarch_flight

@@ -13,11 +13,11 @@
 #include "monarch_flight/ros_io/coordinator_node.h"
 #include "monarch_flight/ros_io/early_end.h"
 #include "monarch_flight/ros_io/flight_run.h"
+#include "monarch_flight/ros_io/flow_view.h"
 #include "monarch_flight/ros_io/loopback.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/participant_node.h"
 #include "monarch_flight/ros_io/pluginlib_source.h"
-#include "monarch_flight/ros_io/pressure_view.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/plugins.h"
 #include "monarch_flight/run/remarks.h"
@@ -141,9 +141,9 @@ int guidanceMain(int argc, char** argv,
                   [&make] { return ParticipantNode(stop_requested, make).run(); });
 }
 
-int pressureViewMain(int argc, char** argv) {
-  return nodeMain("pressure_view", argc, argv, [] {
-    const PressureView view;
+int flowViewMain(int argc, char** argv) {
+  return nodeMain("flow_view", argc, argv, [] {
+    const FlowView view;
     while (ros::ok() && !stop_requested)
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
     return static_cast<int>(kExitComplete);

@@ -5,7 +5,7 @@
 namespace monarch_flight {
 namespace {
 
-constexpr std::size_t kLargestPicture = 1000000;  // facets or vortex points of one message
+constexpr std::size_t kLargestPicture = 1000000;  // facets, or points, of one message
 
 std::string problem(std::uint32_t protocol, const CouplingKey& key) {
   if (protocol != kProtocolVersion) {
@@ -42,9 +42,8 @@ ParticipantRequest toMessage(const Request& request) {
   out.right_loads = toMessage(request.loads.right);
   out.left_loads = toMessage(request.loads.left);
   out.want_operator = request.want_operator;
-  out.want_fields = request.want_fields;
-  out.q_threshold = request.q_threshold;
-  out.vortex_limit = static_cast<std::uint32_t>(request.vortex_limit);
+  out.want_surface = request.want_surface;
+  out.block_points = request.block_points;
   out.want_flow = request.want_flow;
   out.checkpoints = request.checkpoints;
   return out;
@@ -58,9 +57,8 @@ Request fromMessage(const ParticipantRequest& request) {
   out.interface = fromMessage(request.interface);
   out.loads = {fromMessage(request.right_loads), fromMessage(request.left_loads)};
   out.want_operator = request.want_operator;
-  out.want_fields = request.want_fields;
-  out.q_threshold = request.q_threshold;
-  out.vortex_limit = static_cast<int>(request.vortex_limit);
+  out.want_surface = request.want_surface;
+  out.block_points = request.block_points;
   out.want_flow = request.want_flow;
   out.checkpoints = request.checkpoints;
   return out;
@@ -87,8 +85,7 @@ ParticipantReply toMessage(const Reply& reply) {
   out.error = reply.error;
   out.surface.reserve(reply.surface.facets.size());
   for (const SurfacePressure::Facet& f : reply.surface.facets) out.surface.push_back(toMessage(f));
-  out.vortices.reserve(reply.vortices.size());
-  for (const VortexPoint& point : reply.vortices) out.vortices.push_back(toMessage(point));
+  if (!reply.picture.empty()) out.block.push_back(toMessage(reply.picture));
   if (reply.flow) out.flow.push_back(toMessage(*reply.flow));
   return out;
 }
@@ -112,8 +109,7 @@ Reply fromMessage(const ParticipantReply& reply) {
   out.error = reply.error;
   out.surface.facets.reserve(reply.surface.size());
   for (const PressureFacet& f : reply.surface) out.surface.facets.push_back(fromMessage(f));
-  out.vortices.reserve(reply.vortices.size());
-  for (const VortexSample& sample : reply.vortices) out.vortices.push_back(fromMessage(sample));
+  if (!reply.block.empty()) out.picture = fromMessage(reply.block.front());
   if (!reply.flow.empty()) out.flow = fromMessage(reply.flow.front());
   return out;
 }
@@ -133,8 +129,8 @@ IgnoredMessages fromMessage(const IgnoredCounts& ignored) {
 }
 
 std::string problem(const ParticipantRequest& request) {
-  if (request.vortex_limit > kLargestPicture)
-    return "a picture of " + std::to_string(request.vortex_limit) + " parts";
+  if (request.block_points > kLargestPicture)
+    return "a picture of " + std::to_string(request.block_points) + " points";
   return problem(request.protocol, request.key);
 }
 
@@ -153,8 +149,14 @@ std::string problem(const ParticipantReply& reply) {
     std::string misfit = problem(flow);
     if (!misfit.empty()) return misfit;
   }
-  const std::size_t picture = std::max(reply.surface.size(), reply.vortices.size());
-  if (picture > kLargestPicture) return "a picture of " + std::to_string(picture) + " parts";
+  if (reply.block.size() > 1)
+    return std::to_string(reply.block.size()) + " blocks of the flow, at most one fits";
+  for (const FlowBlock& block : reply.block) {
+    std::string misfit = problem(block);
+    if (!misfit.empty()) return misfit;
+  }
+  if (reply.surface.size() > kLargestPicture)
+    return "a picture of " + std::to_string(reply.surface.size()) + " facets";
   return problem(reply.protocol, reply.key);
 }
 

@@ -11,7 +11,6 @@
 #include "monarch_flight/guidance/replay_guidance.h"
 #include "monarch_flight/run/kept_participant.h"
 #include "monarch_flight/run/plugins.h"
-#include "monarch_flight/run/wing_speeds.h"
 
 namespace monarch_flight {
 namespace {
@@ -79,9 +78,9 @@ CoupledModel makeModel(const Case& c) {
 PictureSettings picturesOf(const Case& c) {
   PictureSettings pictures;
   pictures.surface_every = c.output.surface_every;
-  pictures.vortices_every = c.output.vortices_every;
-  pictures.flow_every = c.output.fields_every;
-  pictures.q_threshold = vortexThreshold(c);
+  pictures.flow_every = c.output.flow_every;
+  pictures.flow_points = c.output.flow_points;
+  pictures.fields_every = c.output.fields_every;
   return pictures;
 }
 

@@ -87,7 +87,7 @@ class FlapSink : public StepSink {
 ControlledFlight flyControlled(const Case& given, const WingbeatSettings& wingbeat,
                                const ControllerSettings& controller, const ControlledStart& start) {
   Case c = given;
-  c.output.surface_every = c.output.vortices_every = c.output.fields_every = 0;
+  c.output.surface_every = c.output.flow_every = c.output.fields_every = 0;
   c.coupling.prescribed_steps = 0;
   c.coupling.accelerations_known = false;
   c.time.steps = static_cast<std::uint32_t>(std::lround(start.flaps * c.time.stepsPerFlap()));

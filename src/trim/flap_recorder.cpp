@@ -86,7 +86,7 @@ FlapShape flapShape(const std::array<std::vector<double>, 4>& samples, const Tim
 }
 
 Flight flyCase(Case c, FlapRecorder& recorder) {
-  c.output.surface_every = c.output.vortices_every = 0;
+  c.output.surface_every = c.output.flow_every = 0;
   const auto begin = std::chrono::steady_clock::now();
   const StopFlag stop{false};
   InProcessFederation federation(c);

@@ -150,7 +150,7 @@ PhaseMap::PhaseMap(const Case& c, int samples, double time_constant)
   if (!faults.empty()) throw InputError(faults);
   case_.guidance = {};
   case_.wind = std::make_shared<SteadyWind>();
-  case_.output.surface_every = case_.output.vortices_every = case_.output.fields_every = 0;
+  case_.output.surface_every = case_.output.flow_every = case_.output.fields_every = 0;
   case_.coupling.prescribed_steps = 0;
 }
 

@@ -69,7 +69,7 @@ class Checkpointed : public CaseTest {
     c.grid.first_cell = 0.08;
     c.grid.growth_plane = c.grid.growth_normal = 1.3;
     c.grid.far_field = 3;
-    c.output.vortices_every = 0;
+    c.output.flow_every = 0;
     return c;
   }
   std::string out(const std::string& name) const { return (folder_ / name).string(); }

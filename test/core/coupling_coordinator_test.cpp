@@ -137,7 +137,8 @@ TEST_F(Coordination, ForceIsThatOfBothWingsInInertialAxes) {
 
 TEST_F(Coordination, StepsComeInOrderAndTheEndOnce) {
   f_.settings.pictures.surface_every = 5;
-  f_.settings.pictures.vortices_every = 10;
+  f_.settings.pictures.flow_every = 10;
+  f_.settings.pictures.flow_points = 8;
   Federation f(f_.model, f_.settings, monarchAir(1.0));
   ASSERT_TRUE(f.run().complete);
   EXPECT_EQ(f.sink.ends, 1);
@@ -149,7 +150,7 @@ TEST_F(Coordination, StepsComeInOrderAndTheEndOnce) {
     EXPECT_EQ(step.step, i);
     for (Side side : kSides) {
       EXPECT_EQ(step.surface[side].facets.size(), i > 0 && i % 5 == 0 ? 1u : 0u);
-      EXPECT_EQ(step.vortices[side].size(), i > 0 && i % 10 == 0 ? 1u : 0u);
+      EXPECT_EQ(step.picture[side].points(), i > 0 && i % 10 == 0 ? 8u : 0u);
     }
   }
   for (const testing::Recorder* p : {f.fluid.get(), f.flight.get(), f.wing.get()}) {

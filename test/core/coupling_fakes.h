@@ -46,8 +46,13 @@ class LinearAir : public FluidModel {
   FluidReport report() const override { return {}; }
   long cells() const override { return 42; }
   SurfacePressure surfacePressure() const override { return {{{0.f, 0.f, 1.f, 1.f, 2.f, 3.f}}}; }
-  std::vector<VortexPoint> vortices(double q, int) const override {
-    return {{0.f, 0.f, 0.f, static_cast<float>(2.0 * q), 0.f}};
+  FlowPicture flowPicture(std::size_t limit) const override {
+    FlowPicture picture;
+    picture.size = {static_cast<std::uint32_t>(limit), 1, 1};
+    picture.spacing = 1.0f;
+    picture.q_root.resize(limit);
+    picture.omega_y.resize(limit);
+    return picture;
   }
 
   /// Loads for a motion, given the velocity of level n: for the monolithic solution.

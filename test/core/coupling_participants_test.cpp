@@ -221,13 +221,12 @@ TEST_F(SolverParticipants, FluidTellsOfItselfAtTheStartAndShowsFieldsOnDemand) {
     const std::uint32_t step = wanted ? 2 : 1;
     ASSERT_EQ(fluid.exchange(make(Phase::kIterate, step, 0)).error, "");
     Request commit = make(Phase::kCommit, step, 0);
-    commit.want_fields = wanted;
-    commit.q_threshold = 5.0;
+    commit.want_surface = wanted;
+    commit.block_points = wanted ? 5 : 0;
     const Reply reply = fluid.exchange(commit);
     EXPECT_EQ(reply.error, "");
     EXPECT_EQ(reply.surface.facets.size(), wanted ? 1u : 0u);
-    ASSERT_EQ(reply.vortices.size(), wanted ? 1u : 0u);
-    for (const VortexPoint& point : reply.vortices) EXPECT_EQ(point.q, 10.0f);
+    EXPECT_EQ(reply.picture.points(), wanted ? 5u : 0u);
   }
 }
 

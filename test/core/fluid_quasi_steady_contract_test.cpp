@@ -30,7 +30,7 @@ TEST(QuasiSteadyContract, EvaluationIsAPureFunctionAndStateRestores) {
   EXPECT_THROW(model->restore(std::vector<char>(3)), std::invalid_argument);
   EXPECT_EQ(model->cells(), 0);
   EXPECT_EQ(model->report().courant, 0.0);
-  EXPECT_TRUE(model->vortices(0.0, 10).empty());
+  EXPECT_TRUE(model->flowPicture(1000).empty());
 }
 
 TEST(QuasiSteadyContract, PicturesAreThoseOfTheCommittedLevel) {

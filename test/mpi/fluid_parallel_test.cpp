@@ -178,6 +178,15 @@ TEST(Slab, RefusesTooManyProcesses) {
 INSTANTIATE_TEST_SUITE_P(Boundary, Processes,
                          ::testing::Values(Outer::kRest, Outer::kOpen, Outer::kRestClose));
 
+/// But for the rounding of the flows and of the whole numbers.
+bool samePicture(const FlowPicture& a, const FlowPicture& b) {
+  bool same = !a.empty() && a.origin == b.origin && a.size == b.size &&
+              std::abs(a.step - b.step) < 1e-5f * a.step;
+  for (std::size_t n = 0; same && n < a.points(); ++n)
+    same = std::abs(a.q_root[n] - b.q_root[n]) < 2 && std::abs(a.omega_y[n] - b.omega_y[n]) < 2;
+  return same;
+}
+
 /// Process 0 flies, the others serve: what the fluid node does.
 bool sharedFlowFlies() {
   int rank = 0;
@@ -201,7 +210,7 @@ bool sharedFlowFlies() {
   }
   const bool pictures =
       shared.surfacePressure().facets.size() == alone.surfacePressure().facets.size() &&
-      shared.vortices(1.0, 50).size() == alone.vortices(1.0, 50).size() &&
+      samePicture(shared.flowPicture(5000), alone.flowPicture(5000)) &&
       shared.flowField()->cells() == alone.flowField()->cells();
   const Eigen::Vector3d force = shared.evaluate(flapping(0.05)).force();
   shared.restore(state);

@@ -69,19 +69,17 @@ TEST(Conversions, RequestsCrossTheWireBitForBit) {
     request.prescribed = anyPrescribed();
     request.interface = anyInterface();
     for (Side side : kSides) request.loads[side] = anyLoads();
-    request.q_threshold = anyNumber();
-    request.vortex_limit = i;
-    request.want_fields = i % 2 == 1;
+    request.block_points = static_cast<std::uint32_t>(i);
+    request.want_surface = i % 2 == 1;
     request.want_operator = i % 3 == 1;
     const Request back = fromMessage(overTheWire(toMessage(request)));
     EXPECT_EQ(request.key, back.key);
     expectBitwise(request.t, back.t);
     expectBitwise(request.prescribed, back.prescribed);
     expectBitwise(request.interface, back.interface);
-    expectBitwise(request.q_threshold, back.q_threshold);
-    EXPECT_EQ(request.vortex_limit, back.vortex_limit);
+    EXPECT_EQ(request.block_points, back.block_points);
     expectBitwise(request.loads, back.loads);
-    EXPECT_EQ(request.want_fields, back.want_fields);
+    EXPECT_EQ(request.want_surface, back.want_surface);
     EXPECT_EQ(request.want_flow, back.want_flow);
     EXPECT_EQ(request.want_operator, back.want_operator);
   }
@@ -117,8 +115,8 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
     reply.wall_s = anyNumber();
     reply.error = i % 3 == 0 ? "why" : "";
     reply.surface.facets.push_back({1.5f, -2.5f, 3e-38f, 4.0f, -0.0f, 6e30f});
-    reply.vortices.push_back({1.0f, 2.0f, 3.0f, 4.0f, -5.0f});
-    reply.vortices.push_back({-1.0f, 0.1f, 0.2f, 0.3f, 0.4f});
+    if (i % 2 == 1)
+      reply.picture = {{1.0f, -2.0f, 3e-38f}, 0.5f, {1, 2, 1}, 0.25f, {7, -7}, {32767, -32768}};
     const Reply back = fromMessage(overTheWire(toMessage(reply)));
     EXPECT_EQ(reply.key, back.key);
     ASSERT_EQ(reply.prescribed.has_value(), back.prescribed.has_value());
@@ -146,9 +144,12 @@ TEST(Conversions, RepliesCrossTheWireBitForBit) {
     EXPECT_EQ(reply.error, back.error);
     ASSERT_EQ(1u, back.surface.facets.size());
     expectBitwise(reply.surface.facets[0], back.surface.facets[0]);
-    ASSERT_EQ(2u, back.vortices.size());
-    expectBitwise(reply.vortices[0], back.vortices[0]);
-    expectBitwise(reply.vortices[1], back.vortices[1]);
+    EXPECT_EQ(reply.picture.origin, back.picture.origin);
+    EXPECT_EQ(reply.picture.spacing, back.picture.spacing);
+    EXPECT_EQ(reply.picture.size, back.picture.size);
+    EXPECT_EQ(reply.picture.step, back.picture.step);
+    EXPECT_EQ(reply.picture.q_root, back.picture.q_root);
+    EXPECT_EQ(reply.picture.omega_y, back.picture.omega_y);
   }
 }
 
@@ -236,6 +237,18 @@ TEST(Conversions, UnusableMessagesAreNamed) {
   reply.load_operator.clear();
   reply.kernel_times.resize(3);
   EXPECT_EQ("3 times by kernel, at most one fits", problem(reply));
+  reply.kernel_times.clear();
+  reply.block.resize(1);
+  reply.block[0].size = {2, 2, 2};
+  reply.block[0].q_root.resize(8);
+  reply.block[0].vorticity.resize(7);
+  EXPECT_EQ("a block of the flow whose fields do not fit its size", problem(reply));
+  reply.block[0].vorticity.resize(8);
+  EXPECT_EQ("a block of the flow that is not finite", problem(reply));  // no spacing
+  reply.block[0].spacing = 0.1f;
+  EXPECT_EQ("", problem(reply));
+  reply.block[0].size = {4000000000u, 4000000000u, 4000000000u};
+  EXPECT_EQ("a block of the flow whose fields do not fit its size", problem(reply));
 }
 
 TEST(Conversions, NonFiniteStatesAreSeenInEveryMember) {

@@ -69,10 +69,10 @@ struct Request {
   /// Of this sub-iteration; zero to the fluid; of the committed level to guidance.
   PerWing<Loads> loads;
   bool want_operator = false;  ///< ITERATE to the fluid: answer with the loads' Jacobian too
-  bool want_flow = false;      ///< COMMIT to the fluid: answer with the whole flow
-  bool want_fields = false;    ///< COMMIT to the fluid: answer with surface pressure and vortices
-  double q_threshold = 0.0;    ///< of these vortices [1/s^2]
-  int vortex_limit = 0;        ///< points at most
+  bool want_surface = false;   ///< COMMIT to the fluid: answer with the pressure on the wing
+  /// COMMIT to the fluid: answer with the flow around the wing on at most so many points; 0: not.
+  std::uint32_t block_points = 0;
+  bool want_flow = false;  ///< COMMIT to the fluid: answer with the whole flow
   /// START between processes: folder of the run's checkpoints.
   std::string checkpoints;
 };
@@ -90,7 +90,7 @@ struct Reply {
   double wall_s = 0.0;      ///< time spent computing
   std::string error;        ///< empty: good; else why the participant cannot go on
   SurfacePressure surface;  ///< only when asked for
-  std::vector<VortexPoint> vortices;      ///< only when asked for
+  FlowPicture picture;      ///< only when asked for; empty where there is no field
   std::shared_ptr<const FlowField> flow;  ///< only when asked for; null where there is no field
 };
 

@@ -17,11 +17,10 @@ enum class Relaxation { kConstant, kAitken, kIqnIls, kAddedMass };
 
 /// Which pictures of the flow are asked for when a step is committed.
 struct PictureSettings {
-  int surface_every = 0;     ///< steps between pictures of the wing's pressure (0: never)
-  int vortices_every = 0;    ///< steps between pictures of the vortices (0: never)
-  int flow_every = 0;        ///< steps between answers with the whole flow (0: never)
-  double q_threshold = 0.0;  ///< vortices are where Q exceeds it [1/s^2]
-  int vortex_limit = 20000;  ///< points at most in a picture of vortices
+  int surface_every = 0;  ///< steps between pictures of the wing's pressure (0: never)
+  int flow_every = 0;     ///< steps between pictures of the flow around the wings (0: never)
+  int flow_points = 0;    ///< points at most in a picture of the flow around a wing, >= 8
+  int fields_every = 0;   ///< steps between answers with the whole flow (0: never)
 };
 
 struct CouplingSettings {
@@ -83,7 +82,7 @@ struct CommittedStep {
   FluidReport fluid;  ///< of both wings together
   // The left wing's in the mirror (state.h); mirrored wings: the same twice.
   PerWing<SurfacePressure> surface;                ///< empty unless fields were due
-  PerWing<std::vector<VortexPoint>> vortices;      ///< empty unless fields were due
+  PerWing<FlowPicture> picture;                    ///< empty unless it was due and there is one
   PerWing<std::shared_ptr<const FlowField>> flow;  ///< null unless it was due and there is one
   std::array<double, kRoles> wall_s{};             ///< computing time by role in this step
   IgnoredMessages ignored;                         ///< of all participants since the run began

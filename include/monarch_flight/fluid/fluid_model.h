@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "monarch_flight/fluid/flow_field.h"
+#include "monarch_flight/fluid/flow_picture.h"
 #include "monarch_flight/fluid/kernel_times.h"
 #include "monarch_flight/insect/state.h"
 #include "monarch_flight/math/eigen.h"
@@ -20,13 +21,6 @@ struct SurfacePressure {
     float p_upper, p_lower;  ///< gauge pressure on the dorsal (-z) and ventral (+z) side [Pa]
   };
   std::vector<Facet> facets;
-};
-
-/// A point of a vortex (Q above a threshold), for pictures.
-struct VortexPoint {
-  float x, y, z;  ///< wing axes [m]
-  float q;        ///< second invariant Q of the velocity gradient [1/s^2]
-  float omega_y;  ///< spanwise vorticity, wing axes [1/s]
 };
 
 /// Jacobian of the loads (force; moment) at level n+1, wing axes, with respect to the wing's
@@ -87,9 +81,11 @@ class FluidModel {
   /// Of the committed level, also between evaluate and commit and after restore; zero after start.
   virtual SurfacePressure surfacePressure() const = 0;
   /// Of the committed level, as `flowField`. Velocities stand in the axes of the next level while
-  /// it is computed: both throw std::logic_error between evaluate and commit. At most `limit`
-  /// points with Q > q_threshold; empty where there is no field.
-  virtual std::vector<VortexPoint> vortices(double q_threshold, int limit) const = 0;
+  /// it is computed: both throw std::logic_error between evaluate and commit. The vortices around
+  /// the wing on at most `limit` points (>= 8); empty where there is no field.
+  virtual FlowPicture flowPicture(std::size_t limit) const {
+    return static_cast<void>(limit), FlowPicture();
+  }
   /// The committed level as a whole; null where there is no field.
   virtual std::shared_ptr<const FlowField> flowField() const { return nullptr; }
 };

@@ -3,6 +3,7 @@
 #include <geometry_msgs/Vector3Stamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <monarch_flight/FlightState.h>
+#include <monarch_flight/FlowBlock.h>
 #include <monarch_flight/StepIterations.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
@@ -26,7 +27,7 @@ using FlightMessage =
     std::variant<rosgraph_msgs::Clock, tf2_msgs::TFMessage, sensor_msgs::JointState,
                  diagnostic_msgs::DiagnosticArray, std_msgs::String, FlightState,
                  nav_msgs::Odometry, nav_msgs::Path, geometry_msgs::Vector3Stamped,
-                 geometry_msgs::WrenchStamped, sensor_msgs::PointCloud2,
+                 geometry_msgs::WrenchStamped, sensor_msgs::PointCloud2, FlowBlock,
                  visualization_msgs::MarkerArray, StepIterations>;
 
 /// A message with its place and time: what is published and what is recorded are the same.

@@ -26,8 +26,8 @@ int fluidMain(int argc, char** argv);
 /// for the run's case.
 int guidanceMain(int argc, char** argv,
                  const std::function<std::unique_ptr<Guidance>(const Case&)>& make);
-/// Main of the viewer that colours the wings for rviz (PressureView), until it is stopped.
-int pressureViewMain(int argc, char** argv);
+/// Main of the viewer of the flow for rviz (FlowView), until it is stopped.
+int flowViewMain(int argc, char** argv);
 /// The same flight without a master: key:=value arguments.
 int inProcessMain(int argc, char** argv);
 /// Prints the URDF of a case's insect and writes its meshes: `case:=<name or path>`,

@@ -21,11 +21,19 @@ constexpr char kRightWrench[] = "right_wing/wrench";
 constexpr char kLeftWrench[] = "left_wing/wrench";
 constexpr char kRightPressure[] = "right_wing/pressure";
 constexpr char kLeftPressure[] = "left_wing/pressure";
-constexpr char kVortices[] = "vortices";
+constexpr char kRightFlow[] = "right_wing/flow";
+constexpr char kLeftFlow[] = "left_wing/flow";
 constexpr char kIterations[] = "iterations";
-// For rviz alone (PressureView): neither from the coordinator nor in a bag.
+// Of FlowView, made from those above: neither from the coordinator nor in a bag.
+constexpr char kInsectMarkers[] = "insect_markers";
 constexpr char kPressureMarkers[] = "pressure_markers";
-constexpr char kPressureLegend[] = "pressure_legend";
+constexpr char kVortexMarkers[] = "vortex_markers";
+constexpr char kSliceMarkers[] = "slice_markers";
+constexpr char kForceMarkers[] = "force_markers";
+constexpr char kColourScales[] = "colour_scales";
+// Heard by FlowView.
+constexpr char kQLevel[] = "flow_view/q_level";
+constexpr char kSliceAt[] = "flow_view/slice_at";
 }  // namespace topics
 
 /// Where one run lives among others on the same master: the namespace of its nodes, parameters and

@@ -34,8 +34,9 @@ struct TimeGrid {
 struct OutputSettings {
   bool record = true;          ///< write flight.bag
   int surface_every = 10;      ///< steps between wing-pressure pictures (0: never)
+  int flow_every = 10;         ///< steps between pictures of the flow around the wings (0: never)
+  int flow_points = 40000;     ///< points at most in such a picture, for each solved wing
   int fields_every = 0;        ///< steps between files of the whole flow (0: never)
-  int vortices_every = 50;     ///< steps between vortex pictures (0: never)
   int checkpoint_every = 250;  ///< steps between checkpoints (0: never)
 };
 

@@ -24,9 +24,8 @@ constexpr char kRightDeviation[] = "right_wing_deviation";  ///< and by deviatio
 constexpr char kRightWing[] = "right_wing";  ///< F_R, at the wing's root: and by pitch
 constexpr char kLeftFlapping[] = "left_wing_flapping";
 constexpr char kLeftDeviation[] = "left_wing_deviation";
-constexpr char kLeftWing[] = "left_wing";      ///< F_L, at the wing's root
-constexpr char kAbdomen[] = "abdomen";         ///< F_A, at its joint
-constexpr char kLegend[] = "pressure_legend";  ///< at base_link, turned as world; only for rviz
+constexpr char kLeftWing[] = "left_wing";  ///< F_L, at the wing's root
+constexpr char kAbdomen[] = "abdomen";     ///< F_A, at its joint
 }  // namespace frames
 
 /// Takes NED components to ENU components (its own inverse).

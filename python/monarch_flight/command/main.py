@@ -12,6 +12,7 @@ COMMANDS = {
     "plan": "tells what a run means before it is flown",
     "summary": "prints the summary of a run",
     "screenshot": "takes a picture of a recorded flight",
+    "film": "makes a film of a recorded flight",
     "figures": "draws the paper's figures from recorded runs",
     "render-field": "renders the flow of a run",
     "sweep": "flies a case over a parameter of the insect",

@@ -75,11 +75,11 @@ def raise_curtain(stage, port):
     stage.start("core", "roscore", "-p", port)
     stage.wait_for(30, "the ROS master", lambda: master.answers(uri))
     stage.run("rosparam", "set", "/use_sim_time", "true")
-    stage.start("pressure", places.program("pressure_view"))
+    stage.start("pressure", places.program("flow_view"))
     stage.start("rviz", "rviz", "--fullscreen", "-d", places.share() / "rviz/monarch.rviz", "__name:=rviz")
     stage.wait_for(60, "rviz", lambda: master.listens(uri, "/rviz", "/monarch_flight/path"))
     stage.wait_for(30, "the wings' colours",
-                   lambda: master.listens(uri, "/monarch_flight/pressure_view", "/monarch_flight/right_wing/pressure"))
+                   lambda: master.listens(uri, "/monarch_flight/flow_view", "/monarch_flight/right_wing/pressure"))
 
 
 SHARED = ("/tf", "/tf_static", "/clock", "/diagnostics", "/rosout")

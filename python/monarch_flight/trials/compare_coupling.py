@@ -28,7 +28,7 @@ def case_file(keys, mass, strategy, path):
         coupling["omega_initial"] = 1.0
     if keys["grid"] == "coarse":
         case.setdefault("grid", {}).update(COARSE)
-    case["output"] = {"record": False, "surface_every": 0, "vortices_every": 0}
+    case["output"] = {"record": False, "surface_every": 0, "flow_every": 0}
     with open(path, "w") as f:
         yaml.safe_dump(case, f)
 

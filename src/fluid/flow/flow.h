@@ -49,7 +49,7 @@ class NavierStokes : public FluidModel {
   FluidReport report() const override { return report_; }
   long cells() const override { return grid_.cells(); }
   SurfacePressure surfacePressure() const override;
-  std::vector<VortexPoint> vortices(double q_threshold, int limit) const override;
+  FlowPicture flowPicture(std::size_t limit) const override;
   std::shared_ptr<const FlowField> flowField() const override;
 
   const Grid& grid() const { return grid_; }

@@ -1,36 +1,12 @@
 // Fields for pictures and files: what surrounds the wing at the committed level.
-#include <algorithm>
-#include <cstring>
 #include <stdexcept>
 
+#include "fluid/fields/gathered.h"
+#include "fluid/flow/derived.h"
 #include "fluid/flow/flow.h"
 #include "fluid/loads/wing_loads.h"
 
 namespace monarch_flight::fluid {
-namespace {
-
-/// The items of all processes on process 0, bottom first.
-template <class T>
-std::vector<T> gathered(const Slab& slab, const std::vector<T>& mine) {
-  if (slab.ranks() == 1) return mine;
-  const char* begin = reinterpret_cast<const char*>(mine.data());
-  const std::vector<char> all =
-      slab.gather(std::vector<char>(begin, begin + mine.size() * sizeof(T)));
-  std::vector<T> items(all.size() / sizeof(T));
-  if (!all.empty()) std::memcpy(static_cast<void*>(items.data()), all.data(), all.size());
-  return items;
-}
-
-double secondInvariant(const Eigen::Matrix3d& gradient) {
-  return -0.5 * (gradient * gradient).trace();
-}
-
-Eigen::Vector3d curl(const Eigen::Matrix3d& g) {
-  return {g(2, 1) - g(1, 2), g(0, 2) - g(2, 0), g(1, 0) - g(0, 1)};
-}
-
-}  // namespace
-
 void NavierStokes::requireCommitted() const {
   if (prepared_) {
     throw std::logic_error(
@@ -93,29 +69,6 @@ SurfacePressure NavierStokes::surfacePressure() const {
     }
   }
   return {gathered(slab_, facets)};
-}
-
-std::vector<VortexPoint> NavierStokes::vortices(double q_threshold, int limit) const {
-  requireCommitted();
-  std::vector<VortexPoint> points;
-  for (int k = std::max(1, layout_.k0); k < std::min(layout_.k1, layout_.nz - 1); ++k) {
-    for (int j = 1; j < layout_.ny - 1; ++j) {
-      for (int i = 1; i < layout_.nx - 1; ++i) {
-        const Eigen::Matrix3d g = gradientAt(i, j, k);
-        const double Q = secondInvariant(g);
-        if (Q <= q_threshold) continue;
-        points.push_back({float(grid_.x.centre[i]), float(grid_.y.centre[j]),
-                          float(grid_.z.centre[k]), float(Q), float(curl(g).y())});
-      }
-    }
-  }
-  points = gathered(slab_, points);
-  if (static_cast<int>(points.size()) > limit) {
-    std::nth_element(points.begin(), points.begin() + limit, points.end(),
-                     [](const VortexPoint& a, const VortexPoint& b) { return a.q > b.q; });
-    points.resize(limit);
-  }
-  return points;
 }
 
 std::vector<FlowField::WingFace> NavierStokes::wingFaces() const {

@@ -22,7 +22,7 @@ enum class Order : int {
   kSave,
   kRestore,
   kSurface,
-  kVortices,
+  kPicture,
   kField,
   kLeave
 };
@@ -183,10 +183,10 @@ SurfacePressure SharedFlow::surfacePressure() const {
   return here([&] { return flow_->surfacePressure(); });
 }
 
-std::vector<VortexPoint> SharedFlow::vortices(double q_threshold, int limit) const {
-  give(comm_, Order::kVortices);
-  share(comm_, q_threshold);
-  return here([&] { return flow_->vortices(q_threshold, limit); });
+FlowPicture SharedFlow::flowPicture(std::size_t limit) const {
+  give(comm_, Order::kPicture);
+  share(comm_, limit);
+  return here([&] { return flow_->flowPicture(limit); });
 }
 
 std::shared_ptr<const FlowField> SharedFlow::flowField() const {
@@ -204,6 +204,7 @@ void SharedFlow::serve(MPI_Comm comm) {
   WingMotion motion;
   std::vector<char> bytes;
   double number = 0;
+  std::size_t points = 0;
   while (true) {
     try {
       switch (taken(comm)) {
@@ -229,8 +230,8 @@ void SharedFlow::serve(MPI_Comm comm) {
         case Order::kSurface:
           flow->surfacePressure();
           break;
-        case Order::kVortices:
-          share(comm, number), flow->vortices(number, 0);
+        case Order::kPicture:
+          share(comm, points), flow->flowPicture(points);
           break;
         case Order::kField:
           flow->flowField();

@@ -32,7 +32,7 @@ class SharedFlow : public FluidModel {
   FluidReport report() const override { return flow_->report(); }
   long cells() const override { return flow_->cells(); }
   SurfacePressure surfacePressure() const override;
-  std::vector<VortexPoint> vortices(double q_threshold, int limit) const override;
+  FlowPicture flowPicture(std::size_t limit) const override;
   std::shared_ptr<const FlowField> flowField() const override;
 
   /// What every process but 0 does until `dismiss`.

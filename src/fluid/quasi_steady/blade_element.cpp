@@ -92,8 +92,6 @@ class BladeElement final : public FluidModel {
     return surface;
   }
 
-  std::vector<VortexPoint> vortices(double, int) const override { return {}; }
-
  private:
   RelativeMotion relativeMotion(const WingMotion& m) const;
   SectionLoad translation(const Strip& s, double ux, double uz) const;

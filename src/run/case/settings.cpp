@@ -186,12 +186,18 @@ void readCoupling(Section section, double mean_chord, Case& c, Faults& faults) {
 void readOutput(Section section, Case& c) {
   c.output.record = section.flag("record");
   for (auto [key, value] : {std::pair{"surface_every", &c.output.surface_every},
-                            std::pair{"vortices_every", &c.output.vortices_every},
+                            std::pair{"flow_every", &c.output.flow_every},
                             std::pair{"fields_every", &c.output.fields_every}}) {
     *value = section.integer(key, "steps between pictures, 0: never");
     if (*value < 0) {
       section.fault(key, " = " + std::to_string(*value) + ": must be >= 0; 0 writes no pictures");
     }
+  }
+  c.output.flow_points = section.integer("flow_points", "points of a picture of the flow");
+  if (c.output.flow_points < 1000 || c.output.flow_points > 1000000) {
+    section.fault("flow_points", " = " + std::to_string(c.output.flow_points) +
+                                     ": must be in [1000, 1000000]; 40000 is usual, and "
+                                     "flow_every: 0 makes no pictures of the flow");
   }
   if (c.output.fields_every > 0 && c.fluid == FluidKind::kQuasiSteady) {
     section.fault("fields_every", " = " + std::to_string(c.output.fields_every) +

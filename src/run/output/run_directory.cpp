@@ -129,12 +129,12 @@ std::uint64_t estimatedOutputBytes(const Case& c) {
     bytes += std::min(kMost, steps / c.output.checkpoint_every + 1) * one;
   }
   if (!c.output.record) return bytes;
-  constexpr std::uint64_t kBag = 60000, kBagStep = 1800, kBagFacet = 24, kVortices = 300000;
+  constexpr std::uint64_t kBag = 60000, kBagStep = 1800, kBagFacet = 24, kBagPoint = 4;
   bytes += kBag + steps * kBagStep;
   if (c.output.surface_every > 0)
     bytes += (steps / c.output.surface_every + 1) * sizes.facets * kBagFacet;
-  if (c.fluid == FluidKind::kNavierStokes && c.output.vortices_every > 0)
-    bytes += (steps / c.output.vortices_every + 1) * c.sides().count * kVortices;
+  if (c.fluid == FluidKind::kNavierStokes && c.output.flow_every > 0)
+    bytes += steps / c.output.flow_every * c.sides().count * c.output.flow_points * kBagPoint;
   return bytes;
 }
 

@@ -28,7 +28,6 @@ class Model : public FluidModel {
   FluidReport report() const override { return inner_->report(); }
   long cells() const override { return 0; }
   SurfacePressure surfacePressure() const override { return inner_->surfacePressure(); }
-  std::vector<VortexPoint> vortices(double, int) const override { return {}; }
 
  private:
   std::unique_ptr<FluidModel> inner_;
