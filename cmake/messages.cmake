@@ -19,11 +19,11 @@ if(NOT MONARCH_MESSAGES_ONLY)
   catkin_python_setup()
 endif()
 
-add_message_files(DIRECTORY msg FILES BodyMotion.msg CoordinateResiduals.msg CouplingKey.msg FlightState.msg
-  FluidKernelTimes.msg GuidanceState.msg Hello.msg IgnoredCounts.msg InterfaceState.msg JointMotion.msg
-  LoadDerivatives.msg ParticipantReply.msg ParticipantRequest.msg PrescribedLevel.msg PressureFacet.msg RoleTimes.msg
-  StepIterations.msg SubIteration.msg VortexSample.msg WholeFlow.msg WingFace.msg WingJoints.msg WingLoads.msg
-  WingbeatCommand.msg)
+add_message_files(DIRECTORY msg FILES BodyMotion.msg ColourScale.msg ColourScales.msg CoordinateResiduals.msg
+  CouplingKey.msg FlightState.msg FluidKernelTimes.msg GuidanceState.msg Hello.msg IgnoredCounts.msg
+  InterfaceState.msg JointMotion.msg LoadDerivatives.msg ParticipantReply.msg ParticipantRequest.msg
+  PrescribedLevel.msg PressureFacet.msg RoleTimes.msg StepIterations.msg SubIteration.msg VortexSample.msg
+  WholeFlow.msg WingFace.msg WingJoints.msg WingLoads.msg WingbeatCommand.msg)
 add_service_files(DIRECTORY srv FILES FlySteps.srv)
 add_action_files(DIRECTORY action FILES Fly.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs std_msgs)
