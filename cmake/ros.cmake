@@ -52,7 +52,7 @@ endforeach()
 set_target_properties(${CORE_PROGRAMS} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
 install(TARGETS ${NODE_TARGETS} ${CORE_PROGRAMS} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(PROGRAMS examples/drag_fluid.py examples/climb_guidance.py examples/joy_guidance.py
-  scripts/flown.py scripts/joint_sliders.py
+  scripts/flown.py scripts/joint_sliders.py scripts/measured_path.py scripts/play.py scripts/show.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/monarch_flight/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
   FILES_MATCHING PATTERN "*.h")
