@@ -8,8 +8,8 @@ TOPICS = ("Topic", "Marker Topic")
 FRAMES = ("Reference Frame", "Target Frame")
 SHARED = ("world", "world_ned", "<Fixed Frame>")  # frames that are everybody's
 OWN = "monarch_flight/"  # before the names of a run's topics
-LIGHT = {"Background Color": "246; 247; 249"}
-LIGHT_DISPLAYS = {"Ground grid (5 cm)": "150; 156; 166", "Path": "30; 130; 70", "Measured path": "176; 120; 20"}
+LIGHT = {"Background Color": "222; 227; 234"}
+LIGHT_DISPLAYS = {"Ground grid (5 cm)": "140; 147; 158", "Path": "30; 130; 70", "Measured path": "176; 120; 20"}
 THEMES = ("dark", "light")
 
 

@@ -48,6 +48,8 @@ RunButtons::RunButtons(QWidget* parent)
   grid->addWidget(add("Checkpoint", "checkpoint", "Keep the last committed step"), 2, 0, 1, 3);
   message_->setWordWrap(true);
   message_->setObjectName("message");
+  message_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  message_->setMinimumHeight(2 * fontMetrics().lineSpacing());  // nothing moves when it comes
   message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   all->addWidget(message_);
   connect(&calls_, &ServiceCalls::answered, this, &RunButtons::told);

@@ -9,6 +9,7 @@ namespace {
 constexpr std::chrono::seconds kWindow{3};         // over which speed is measured
 constexpr std::chrono::milliseconds kBetween{20};  // of the steps that are kept
 constexpr std::chrono::seconds kLately{2};
+constexpr int kPauses = 10;  // a wait that is so many times longer than usual
 
 double secondsBetween(RunProgress::Clock::time_point begin, RunProgress::Clock::time_point end) {
   return std::chrono::duration<double>(end - begin).count();
@@ -17,12 +18,19 @@ double secondsBetween(RunProgress::Clock::time_point begin, RunProgress::Clock::
 }  // namespace
 
 void RunProgress::add(std::uint32_t step, double time, Clock::time_point now) {
-  if (known() && step < steps_.back().step) clear();  // set back, or played again
+  if (known() && (step < steps_.back().step || paused(now))) clear();  // set back, played again
   // The newest step replaces the one before, where that came just behind its own predecessor.
   const std::size_t n = steps_.size();
   if (n >= 2 && steps_[n - 1].at - steps_[n - 2].at < kBetween) steps_.pop_back();
   steps_.push_back({step, time, now});
   while (steps_.size() > 2 && now - steps_[1].at > kWindow) steps_.pop_front();
+}
+
+/// Whether much more time has gone by than between the steps before.
+bool RunProgress::paused(Clock::time_point now) const {
+  const auto gap = now - steps_.back().at;
+  const auto usual = (steps_.back().at - steps_.front().at) / static_cast<long>(steps_.size());
+  return steps_.size() > 1 && gap > kLately && gap > kPauses * usual;
 }
 
 void RunProgress::clear() { steps_.clear(); }

@@ -41,6 +41,8 @@ class RunProgress {
     double time;
     Clock::time_point at;
   };
+  bool paused(Clock::time_point now) const;
+
   TimeGrid time_;
   std::deque<Step> steps_;  // of the last seconds
 };

@@ -78,8 +78,9 @@ class Facts(roslaunch.pmon.ProcessListener):
     def end_needed(self):
         """All nodes of the flight, as its end without rviz does."""
         for name in self.pm.get_active_names():
-            if name.rpartition("-")[0] in self.needed:
-                self.pm.kill_process(name)
+            process = self.pm.get_process(name)
+            if process is not None and name.rpartition("-")[0] in self.needed:
+                process.stop([])
 
     def missing(self):
         """Needed nodes that could not be started."""
