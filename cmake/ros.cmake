@@ -53,7 +53,7 @@ set_target_properties(${CORE_PROGRAMS} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_li
 install(TARGETS ${NODE_TARGETS} ${CORE_PROGRAMS} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(PROGRAMS examples/first_fluid.py examples/drag_fluid.py examples/first_guidance.py
   examples/climb_guidance.py examples/joy_guidance.py
-  scripts/flown.py scripts/joint_sliders.py
+  scripts/flown.py scripts/joint_sliders.py scripts/measured_path.py scripts/play.py scripts/show.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/monarch_flight/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
   FILES_MATCHING PATTERN "*.h")

@@ -13,10 +13,9 @@ endif()
 
 add_library(monarch_ros_test_main OBJECT EXCLUDE_FROM_ALL test/ros/main.cpp)
 target_link_libraries(monarch_ros_test_main PRIVATE monarch_ros_io GTest::gtest)
-file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
-foreach(source ${ros_tests})
-  get_filename_component(name ${source} NAME_WE)
-  monarch_test_program(ros_${name} ${source} $<TARGET_OBJECTS:monarch_ros_test_main>)
+# monarch_ros_test(NAME SOURCE...): a test that has a master of its own.
+function(monarch_ros_test name)
+  monarch_test_program(ros_${name} ${ARGN})
   # Beside the nodes: monarch hostile calls one of them.
   set_target_properties(monarch_ros_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${NODE_DIR})
   target_link_libraries(monarch_ros_${name} PRIVATE monarch_ros_io ${tf2_LIBRARIES} nlohmann_json::nlohmann_json)
@@ -26,4 +25,21 @@ foreach(source ${ros_tests})
     COMMAND ${PYTHON_EXECUTABLE} ${ROS_TEST_RUNNER} --limit ${TEST_LIMIT} $<TARGET_FILE:monarch_ros_${name}>)
   set_tests_properties(ros_${name} PROPERTIES TIMEOUT ${WITH_MASTER_LIMIT} LABELS ros
     ENVIRONMENT "${ROS_TEST_ENVIRONMENT}")
+endfunction()
+
+file(GLOB ros_tests CONFIGURE_DEPENDS test/ros/*_test.cpp)
+foreach(source ${ros_tests})
+  get_filename_component(name ${source} NAME_WE)
+  monarch_ros_test(${name} ${source} $<TARGET_OBJECTS:monarch_ros_test_main>)
 endforeach()
+
+# The panel of rviz, found as rviz finds it: by the package's folder and its libraries.
+if(MONARCH_PANEL)
+  monarch_ros_test(panel_test test/panel/panel_test.cpp)
+  target_compile_definitions(monarch_ros_panel_test PRIVATE QT_NO_KEYWORDS)
+  target_include_directories(monarch_ros_panel_test SYSTEM PRIVATE ${rviz_INCLUDE_DIRS})
+  target_link_libraries(monarch_ros_panel_test PRIVATE ${rviz_LIBRARIES} Qt5::Widgets)
+  add_dependencies(monarch_ros_panel_test monarch_flight_panel)
+  set_tests_properties(ros_panel_test PROPERTIES ENVIRONMENT
+    "${ROS_TEST_ENVIRONMENT};ROS_PACKAGE_PATH=${CMAKE_CURRENT_SOURCE_DIR}:/usr/share;CMAKE_PREFIX_PATH=${CATKIN_DEVEL_PREFIX}")
+endif()

@@ -95,7 +95,7 @@ int CoordinatorNode::fly() {
   FlightRun run(case_, out, !parameters_.resume.empty(), parameters_.ranks, names_,
                 {topics_.get()});
   FlightControl control(
-      node_, case_, parameters_.paused, [this] { keepAlive(); }, stop_);
+      node_, names_, case_, parameters_, [this] { keepAlive(); }, stop_);
   run.addSink(control);
   Participants all{};
   for (const auto& node : nodes_) all[static_cast<std::size_t>(node->role())] = node.get();

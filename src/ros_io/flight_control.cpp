@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <limits>
+#include <thread>
 
 #include "monarch_flight/math/seconds_since.h"
 
@@ -11,6 +12,7 @@ namespace {
 // A step may run while reset or pause are asked for; further requests wait.
 constexpr std::uint32_t kThreads = 4;
 constexpr std::chrono::milliseconds kFeedback{100};  // between two of them
+constexpr std::chrono::milliseconds kShortWait{10};  // so long nobody need be kept alive
 constexpr char kFlies[] = "; pause it first";
 
 using Status = actionlib_msgs::GoalStatus;
@@ -32,13 +34,16 @@ FlyResult resultOf(const RunPlace& place, std::uint32_t steps) {
 
 }  // namespace
 
-FlightControl::FlightControl(const ros::NodeHandle& node, const Case& c, bool paused,
-                             std::function<void()> keep_alive, const StopFlag& stop)
+FlightControl::FlightControl(const ros::NodeHandle& node, const RunNames& names, const Case& c,
+                             const RunParameters& parameters, std::function<void()> keep_alive,
+                             const StopFlag& stop)
     : time_(c.time),
       keeps_(c.output.checkpoint_every > 0),
       keep_alive_(std::move(keep_alive)),
       stop_(stop),
-      hold_(paused),
+      hold_(parameters.paused),
+      audience_(names, parameters.rviz),
+      pace_(parameters.rate, c.time.dt),
       node_(node),
       spinner_(kThreads, &queue_) {
   node_.setCallbackQueue(&queue_);
@@ -64,10 +69,27 @@ FlightControl::~FlightControl() {
 }
 
 RunControl::Order FlightControl::next(std::uint32_t step, std::uint32_t iteration) {
+  if (iteration == 0) {
+    awaitTurn();
+    pace_.begin(step, Pace::Clock::now());
+  }
   return hold_.next(step, iteration, stop_, [this](const RunPlace&) {
     endGoal();
     keep_alive_();
   });
+}
+
+/// What a person wants comes first.
+void FlightControl::awaitTurn() {
+  while (!stop_ && !hold_.wanted()) {
+    const Pace::Clock::duration left = pace_.left(Pace::Clock::now());
+    if (!audience_.ready() || left > kShortWait)
+      keep_alive_();
+    else if (left > Pace::Clock::duration::zero())
+      std::this_thread::sleep_for(left);
+    else
+      return;
+  }
 }
 
 bool FlightControl::onPause(Trigger::Request&, Trigger::Response& response) {

@@ -80,6 +80,17 @@ std::string firstPublisher(const std::string& topic) {
   return "";
 }
 
+bool listens(const std::string& node, const std::string& space) {
+  XmlRpc::XmlRpcValue state;
+  if (!ask("getSystemState", "", state)) return false;
+  for (int i = 0; i < state[1].size(); ++i) {  // topic, its subscribers
+    if (static_cast<std::string>(state[1][i][0]).rfind(space, 0) != 0) continue;
+    for (int k = 0; k < state[1][i][1].size(); ++k)
+      if (static_cast<std::string>(state[1][i][1][k]) == node) return true;
+  }
+  return false;
+}
+
 void tellRosout(const std::string& text) {
   if (!ros::isStarted() || !ros::ok()) return;
   ros::NodeHandle node;

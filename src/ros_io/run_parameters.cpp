@@ -60,6 +60,10 @@ void assign(const RunKey& key, const std::string& value, RunParameters& out) {
     out.plan = value == "true";
   } else if (key.name == "paused") {
     out.paused = value == "true";
+  } else if (key.name == "rviz") {
+    out.rviz = value == "true";
+  } else if (key.name == "rate") {
+    out.rate = std::strtod(value.c_str(), nullptr);
   } else if (key.name == "watchdog") {
     out.watchdog_s = std::strtod(value.c_str(), nullptr);
   } else if (key.name == "threads") {

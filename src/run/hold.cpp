@@ -17,6 +17,11 @@ RunPlace Hold::place() const {
   return place_;
 }
 
+bool Hold::wanted() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return held_ || reset_ || checkpoint_;
+}
+
 /// Waits until `done`, or until the run is over or somebody asks for something else.
 template <class Done>
 RunPlace Hold::await(std::unique_lock<std::mutex>& lock, Done done) {

@@ -11,24 +11,35 @@ from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
-from monarch_flight.figures import screenshot  # noqa: E402
 from monarch_flight.runs import environment, flight  # noqa: E402
+from monarch_flight.runs.recorded_names import Names, prefix_of  # noqa: E402
 from monarch_flight.trials import processes  # noqa: E402
 
 
-def topics(space):
-    return [{"topic": "/tf", "type": "tf2_msgs/TFMessage"}, {"topic": "/clock", "type": "rosgraph_msgs/Clock"},
-            {"topic": space + "/state", "type": "monarch_flight/FlightState"},
-            {"topic": space + "/right_wing/pressure", "type": "sensor_msgs/PointCloud2"}]
+def names(space):
+    topics = ["/tf", "/clock", space + "/state", space + "/right_wing/pressure", space.rpartition("/")[0] + "/joint_states"]
+    return Names(space, "", topics)
+
+
+def transforms(*frames):
+    return types.SimpleNamespace(transforms=[types.SimpleNamespace(child_frame_id=frame) for frame in frames])
 
 
 class Places(unittest.TestCase):
-    def test_topics_of_a_bag_get_the_usual_names(self):
-        self.assertEqual(screenshot.usual_names(topics("/monarch_flight")), [])
-        for space in ("/lab/a/monarch_flight", "/bf1", ""):
-            self.assertEqual(screenshot.usual_names(topics(space)),
-                             [f"{space}/state:=/monarch_flight/state",
-                              f"{space}/right_wing/pressure:=/monarch_flight/right_wing/pressure"])
+    def test_topics_of_a_bag_get_the_names_of_another_run(self):
+        self.assertEqual(names("/monarch_flight").remaps("/monarch_flight"), [])
+        for own, outer in (("/lab/a/monarch_flight", "/lab/a"), ("/bf1", ""), ("", "")):
+            self.assertEqual(names(own).remaps("/b/monarch_flight"),
+                             [f"{own}/state:=/b/monarch_flight/state",
+                              f"{own}/right_wing/pressure:=/b/monarch_flight/right_wing/pressure",
+                              f"{outer}/joint_states:=/b/joint_states"] if own else mock.ANY)
+        self.assertIn("/lab/joint_states:=/joint_states", names("/lab/monarch_flight").remaps("/monarch_flight"))
+
+    def test_prefix_of_the_frames_of_a_bag(self):
+        self.assertEqual(prefix_of([transforms("a/b/base_link", "a/b/abdomen")]), "a/b/")
+        self.assertEqual(prefix_of([transforms("world_ned"), transforms("base_link")]), "")
+        self.assertEqual(prefix_of([transforms("x/right_wing")]), "x/")
+        self.assertEqual(prefix_of([transforms("world_ned")] * 200), "")
 
     def test_a_workspace_is_known_by_its_folder(self):
         with tempfile.TemporaryDirectory() as folder:

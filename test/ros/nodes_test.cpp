@@ -24,6 +24,36 @@ TEST_F(Nodes, FlyLikeOneProcessBitForBit) {
   EXPECT_EQ(fileText(folder / "alone/flight.csv"), fileText(folder / "run/flight.csv"));
 }
 
+TEST_F(Nodes, ARateHoldsTheFlightBackAndDoesNotChangeIt) {
+  ros::param::set("/monarch_flight/rate", 0.004);
+  startAll();
+  ASSERT_TRUE(coordinator->prints("results in", 20.0)) << coordinator->output();
+  const ros::WallTime begin = ros::WallTime::now();
+  EXPECT_EQ(0, coordinator->wait(60.0)) << coordinator->output();
+  // Almost a tenth of a flap, which takes 0.098 s.
+  EXPECT_GT((ros::WallTime::now() - begin).toSec(), 0.009 / 0.004);
+}
+
+TEST_F(Nodes, TheFirstStepWaitsForRviz) {
+  ros::param::set("/monarch_flight/rviz", true);
+  startAll();
+  ASSERT_TRUE(coordinator->prints("waiting for rviz", 20.0)) << coordinator->output();
+  EXPECT_FALSE(coordinator->prints("flight complete", 3.0));
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = "/rviz";
+  request[1] = "/monarch_flight/path";
+  request[2] = "nav_msgs/Path";
+  request[3] = "http://localhost:1/";
+  ASSERT_TRUE(ros::master::execute("registerSubscriber", request, response, payload, false));
+  EXPECT_EQ(0, coordinator->wait(20.0)) << coordinator->output();
+  EXPECT_FALSE(contains(coordinator->output(), "begins without it"));
+  XmlRpc::XmlRpcValue leave;
+  leave[0] = request[0];
+  leave[1] = request[1];
+  leave[2] = request[3];
+  EXPECT_TRUE(ros::master::execute("unregisterSubscriber", leave, response, payload, false));
+}
+
 TEST_F(Nodes, AKilledNodeEndsTheRunAtOnceAndIsNamed) {
   startLongFlight();
   wing->send(SIGKILL);

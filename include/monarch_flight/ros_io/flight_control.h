@@ -16,21 +16,26 @@
 
 #include "monarch_flight/coupling/run_control.h"
 #include "monarch_flight/coupling/settings.h"
+#include "monarch_flight/ros_io/audience.h"
+#include "monarch_flight/ros_io/run_parameters.h"
 #include "monarch_flight/run/case.h"
 #include "monarch_flight/run/hold.h"
+#include "monarch_flight/run/pace.h"
 
 namespace monarch_flight {
 
 /// A run in a person's hands: services pause, resume, step, sub_iterate, checkpoint, reset and the
 /// action fly, in the coordinator's namespace (docs/protocol.md). Requests are served in threads of
 /// their own and wait until the coordinator, which asks next() between its sub-iterations, has
-/// obeyed.
+/// obeyed. The first step waits for rviz, every step for the pace of the run.
 class FlightControl : public RunControl, public StepSink {
  public:
-  /// `keep_alive` is called again and again while the run is held, in the coordinator's thread; it
-  /// waits a moment, and throws ExchangeError when a node is lost. `stop` must outlive this.
-  FlightControl(const ros::NodeHandle& node, const Case& c, bool paused,
-                std::function<void()> keep_alive, const StopFlag& stop);
+  /// `keep_alive` is called again and again while the run is held or waits, in the coordinator's
+  /// thread; it waits a moment, and throws ExchangeError when a node is lost. `stop` must outlive
+  /// this.
+  FlightControl(const ros::NodeHandle& node, const RunNames& names, const Case& c,
+                const RunParameters& parameters, std::function<void()> keep_alive,
+                const StopFlag& stop);
   ~FlightControl() override;
 
   Order next(std::uint32_t step, std::uint32_t iteration) override;
@@ -55,6 +60,7 @@ class FlightControl : public RunControl, public StepSink {
   bool onSteps(FlySteps::Request& request, FlySteps::Response& response);
   void onGoal(Goal goal);
   void onCancel(const Goal& goal);
+  void awaitTurn();
   std::optional<Flown> takeGoal();
   void endGoal();
 
@@ -63,6 +69,8 @@ class FlightControl : public RunControl, public StepSink {
   std::function<void()> keep_alive_;
   const StopFlag& stop_;
   Hold hold_;
+  Audience audience_;
+  Pace pace_;
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   std::unique_ptr<Server> action_;

@@ -21,6 +21,9 @@ XmlRpc::XmlRpcValue parametersOfRun(const RunNames& names);
 /// The living node that was the first to advertise a topic; empty: none does.
 std::string firstPublisher(const std::string& topic);
 
+/// Whether a node has subscribed to a topic whose name begins with `space`.
+bool listens(const std::string& node, const std::string& space);
+
 /// Tells /rosout, which rqt_console and a log on another machine hear, beside the terminal.
 void tellRosout(const std::string& text);
 

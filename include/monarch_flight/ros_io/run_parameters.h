@@ -20,10 +20,12 @@ struct RunParameters {
   std::string directory;  ///< where relative paths start; empty: the working directory
   /// keys of config/keys.yaml that go in place of what the case file says
   CaseOverrides overrides;
-  bool plan = false;        ///< `plan`: tell what the run means and end (command line only)
-  int threads = 0;          ///< `threads` of each of them; 0: all cores
-  int ranks = 1;            ///< `ranks`: processes of the flow solver
-  bool paused = false;      ///< `paused`: hold the run at its start (nodes only)
+  bool plan = false;    ///< `plan`: tell what the run means and end (command line only)
+  int threads = 0;      ///< `threads` of each of them; 0: all cores
+  int ranks = 1;        ///< `ranks`: processes of the flow solver
+  bool paused = false;  ///< `paused`: hold the run at its start (nodes only)
+  bool rviz = false;    ///< `rviz`: it was started with the run, which waits for it (nodes only)
+  double rate = 0.0;    ///< `rate`: flight time over wall time, at most; 0: no limit (nodes only)
   double watchdog_s = 0.0;  ///< `watchdog` [s]; 0: that of the case
 };
 

@@ -30,6 +30,8 @@ class Hold {
   explicit Hold(bool held) : held_(held) {}
 
   RunPlace place() const;
+  /// Whether somebody wants what next() does: a hold, a reset, a checkpoint.
+  bool wanted() const;
   /// Holds the run between two sub-iterations.
   RunPlace pause();
   /// The same without waiting for it.

@@ -8,8 +8,8 @@
 
 namespace monarch_flight {
 
-/// Shows flap, step, sub-iterations and time left: one line redrawn on a terminal (at most ten
-/// times a second), else a plain line after every tenth of the run.
+/// Shows flap, step, sub-iterations, time left and flight time over wall time: one line redrawn on
+/// a terminal (at most ten times a second), else a plain line after every tenth of the run.
 class ProgressSink : public StepSink {
  public:
   /// `out` must outlive the sink; `terminal` says whether a line can be redrawn on it.

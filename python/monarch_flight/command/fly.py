@@ -20,7 +20,7 @@ def sections(request):
     """Of scripts/packages.txt."""
     wanted = ["fly"]
     wanted += ["fields"] if int(request.values.get("fields_every", 0)) else []
-    return wanted + (["view"] if request.true("rviz") else [])
+    return wanted + (["view", "panel"] if request.true("rviz") else [])
 
 
 def called():

@@ -8,7 +8,7 @@ import pathlib
 from monarch_flight import keys, places, preparing
 from monarch_flight.keys import Key
 
-SECTIONS = ("fly", "view", "picture")
+SECTIONS = ("fly", "view", "panel", "picture")
 
 
 def add_arguments(parser):

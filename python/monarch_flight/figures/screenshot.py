@@ -6,11 +6,9 @@ import sys
 import tempfile
 import time
 
-import yaml
-
-from monarch_flight import places
+from monarch_flight import places, rviz_config
 from monarch_flight.figures.screen import Screen
-from monarch_flight.runs import environment, master
+from monarch_flight.runs import environment, master, recorded_names
 
 PLAYING = 15.0  # s of wall clock: a flap takes 0.1 s, so slowly, that nothing is lost on the way into the picture
 MIDDLE = "1200x600+200+100"  # of the picture, without what a window draws at its edges
@@ -69,31 +67,19 @@ def surroundings(screen, work):
     return base, port
 
 
-def raise_curtain(stage, port):
+def raise_curtain(stage, port, names, theme):
     """Master, colours and rviz, listening."""
     uri = stage.environment["ROS_MASTER_URI"]
     stage.start("core", "roscore", "-p", port)
     stage.wait_for(30, "the ROS master", lambda: master.answers(uri))
     stage.run("rosparam", "set", "/use_sim_time", "true")
-    stage.start("pressure", places.program("flow_view"))
-    stage.start("rviz", "rviz", "--fullscreen", "-d", places.share() / "rviz/monarch.rviz", "__name:=rviz")
+    stage.start("flow", places.program("flow_view"))
+    config = stage.work / "monarch.rviz"
+    config.write_text(rviz_config.config(theme, names.prefix), encoding="utf-8")
+    stage.start("rviz", "rviz", "--fullscreen", "-d", config, "__name:=rviz")
     stage.wait_for(60, "rviz", lambda: master.listens(uri, "/rviz", "/monarch_flight/path"))
     stage.wait_for(30, "the wings' colours",
                    lambda: master.listens(uri, "/monarch_flight/flow_view", "/monarch_flight/right_wing/pressure"))
-
-
-SHARED = ("/tf", "/tf_static", "/clock", "/diagnostics", "/rosout")
-
-
-def usual_names(topics):
-    """Words for rosbag play that give the topics of a run in any namespace the usual names, which rviz knows.
-    `topics`: as rosbag info has them."""
-    state = next((one["topic"] for one in topics if one["type"] == "monarch_flight/FlightState"), "/monarch_flight/state")
-    space = state.rpartition("/")[0]
-    if space == "/monarch_flight":
-        return []
-    own = [one["topic"] for one in topics if one["topic"].startswith(space + "/") and one["topic"] not in SHARED]
-    return [f"{topic}:=/monarch_flight{topic[len(space):]}" for topic in own]
 
 
 class Camera:
@@ -119,18 +105,19 @@ class Camera:
         return self.before.exists() and self.colours() > COLOURS and self.same()
 
 
-def take(bag, picture, seconds):
+def take(bag, picture, seconds, theme="dark", size="1600x900"):
     """Writes the picture of a bag after so many seconds of flight (None: at its end)."""
+    names = recorded_names.of(bag)
     with tempfile.TemporaryDirectory(prefix="screenshot_") as name:
         work = pathlib.Path(name)
-        with Screen("1600x900") as screen:
+        with Screen(size) as screen:
             base, port = surroundings(screen, work)
             with Stage(work, base) as stage:
-                raise_curtain(stage, port)
+                raise_curtain(stage, port, names, theme)
                 length = seconds or float(stage.run("rosbag", "info", "-y", "-k", "duration", bag))
                 print(f"screenshot: replaying {length:g} s of flight", flush=True)
-                names = usual_names(yaml.safe_load(stage.run("rosbag", "info", "-y", "-k", "topics", bag)))
-                stage.run("rosbag", "play", "-q", "-r", length / PLAYING or 1.0, "-u", length, bag, *names)
+                stage.run("rosbag", "play", "-q", "-r", length / PLAYING or 1.0, "-u", length, bag,
+                          *names.remaps("/monarch_flight"))
                 camera = Camera(stage)
                 stage.wait_for(60, "the picture to stand still", camera.still)
                 shutil.copy(camera.now, picture)

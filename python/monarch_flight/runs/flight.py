@@ -48,7 +48,7 @@ class Nodes:
     @property
     def command(self):
         return [PYTHON, "-m", "monarch_flight.runs.launcher", "FACTS", str(self.port),
-                places.share() / "launch/flight.launch", *self.request.words("launch")]
+                "stays" if self.request.stays else "ends", places.share() / "launch/flight.launch", *self.request.words("launch")]
 
     def second_shell(self):
         """One line to copy, for whoever leads the run from there."""

@@ -1,12 +1,14 @@
 """Starts the nodes of a flight by the API of roslaunch, and tells facts of their ends, a line of JSON each.
 
-usage: python3 -m monarch_flight.runs.launcher FACTS PORT LAUNCH_FILE [KEY:=VALUE ...] FACTS is the number of an
-open file; PORT that of a master to start, 0 where one runs. Exit code: 0 the needed nodes ended well, 1 one of them
-did not, 2 the launch file or its arguments are refused. """
+usage: python3 -m monarch_flight.runs.launcher FACTS PORT RVIZ LAUNCH_FILE [KEY:=VALUE ...] FACTS is the number of an
+open file; PORT that of a master to start, 0 where one runs; RVIZ is stays where rviz outlives the flight until it is
+closed, else ends. Exit code: 0 the needed nodes ended well, 1 one of them did not, 2 the launch file or its arguments
+are refused. """
 import json
 import os
 import signal
 import sys
+import threading
 import time
 
 LAST_WORD = 3.0  # s, for a coordinator whose nodes have gone before it
@@ -39,11 +41,15 @@ from monarch_flight.runs import node_program  # noqa: E402
 from monarch_flight.runs.master import ROLES  # noqa: E402
 
 
-class Facts(roslaunch.pmon.ProcessListener):
-    """Tells which process ended, and how; the end of a needed one ends them all."""
+RVIZ = "show.py"  # type of its node
 
-    def __init__(self, number):
+
+class Facts(roslaunch.pmon.ProcessListener):
+    """Tells which process ended, and how; the end of a needed one ends them all, but for rviz where that stays."""
+
+    def __init__(self, number, stays):
         self.file, self.needed, self.pm, self.code = os.fdopen(number, "w", encoding="utf-8"), {"master"}, None, 0
+        self.stays, self.over, self.rviz = stays, False, set()  # names
 
     def tell(self, **fact):
         try:
@@ -53,6 +59,10 @@ class Facts(roslaunch.pmon.ProcessListener):
 
     def process_died(self, process_name, exit_code):
         name = process_name if process_name in self.needed else process_name.rpartition("-")[0]
+        if self.over:
+            if name in self.rviz or name == "master":
+                self.pm.shutdown()
+            return
         self.tell(ended=name, exit_code=exit_code, needed=name in self.needed)
         if name in self.needed:
             self.last_word(process_name)
@@ -72,7 +82,21 @@ class Facts(roslaunch.pmon.ProcessListener):
 
     def end(self, exit_code):
         self.code = 1 if exit_code else self.code
-        self.pm.shutdown()
+        watched = [name for name in self.pm.get_active_names() if name.rpartition("-")[0] in self.rviz]
+        if not (self.stays and watched):
+            self.pm.shutdown()
+            return
+        self.over = True
+        self.tell(over=True)
+        print("fly: the flight is over; rviz stays until you close it or press Ctrl-C, then the summary comes", flush=True)
+        threading.Thread(target=self.end_needed, daemon=True).start()
+
+    def end_needed(self):
+        """All nodes of the flight, as its end without rviz does."""
+        for name in self.pm.get_active_names():
+            process = self.pm.get_process(name)
+            if process is not None and name.rpartition("-")[0] in self.needed:
+                process.stop([])
 
     def missing(self):
         """Needed nodes that could not be started."""
@@ -93,8 +117,9 @@ class Launcher(roslaunch.parent.ROSLaunchParent):
     def _load_config(self):
         super()._load_config()
         # A flight ends with any of its own nodes.
-        self.facts.needed |= {(node.namespace + node.name).strip("/") for node in self.config.nodes
-                              if node.name in ROLES}
+        names = {(node.namespace + node.name).strip("/"): node for node in self.config.nodes}
+        self.facts.needed |= {name for name, node in names.items() if node.name in ROLES}
+        self.facts.rviz = {name for name, node in names.items() if node.type == RVIZ}
 
     def _init_runner(self):
         super()._init_runner()
@@ -122,8 +147,8 @@ def launch(facts, port, file, words):
 
 
 def main(words):
-    facts, port, file, *keys = words
-    facts = Facts(int(facts))
+    facts, port, rviz, file, *keys = words
+    facts = Facts(int(facts), rviz == "stays")
     if not node_program.good(keys):
         return 2
     try:

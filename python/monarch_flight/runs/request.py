@@ -2,6 +2,7 @@
 import dataclasses
 import os
 import pathlib
+import sys
 import time
 
 import yaml
@@ -16,6 +17,7 @@ class Request:
     values: dict
     folder: pathlib.Path
     leader: str  # who leads the wingbeat
+    stays: bool = False  # rviz outlives the flight
 
     def given(self, name):
         return self.values.get(name, "")
@@ -47,6 +49,7 @@ class Check:
     def __init__(self, values, faults, display):
         self.values, self.faults, self.display = values, faults, display
         self.name = ""  # of the case, for people
+        self.stays, self.asked = False, values.get("rviz") == "true"  # batch runs do not wait for somebody to close it
         self.resumed, self.replayed = values.get("resume"), values.get("replay")
 
     def fault(self, name, text):
@@ -142,7 +145,7 @@ class Check:
         """What needs nodes, and a display."""
         if "true" in (self.values.get("in_process"), self.values.get("plan")):
             for name, value in (("rviz", "true"), *((name, None) for name in node_keys.ALL),
-                                ("guidance", "commands"), ("paused", "true"), ("launch_prefix", None)):
+                                ("guidance", "commands"), ("paused", "true"), ("rate", None), ("theme", None), ("launch_prefix", None)):
                 if name in self.values and value in (None, self.values[name]):
                     self.fault(name, "needs the nodes, so in_process:=false")
             self.values["rviz"] = "false"
@@ -150,7 +153,7 @@ class Check:
             if self.values.get("rviz") == "true":
                 self.fault("rviz", "there is no display (DISPLAY is not set)")
             self.values["rviz"] = "false"
-        self.values.setdefault("rviz", "true")
+        self.stays = self.values.setdefault("rviz", "true") == "true" and (self.asked or sys.stdout.isatty())
 
 
 def request(words, environment=None):
@@ -168,4 +171,4 @@ def request(words, environment=None):
     check.paths()
     if faults:
         raise keys.Refused(*faults)
-    return Request(values, folder, leader)
+    return Request(values, folder, leader, check.stays)

@@ -74,7 +74,10 @@ std::string ProgressSink::line(const CommittedStep& step) const {
   std::snprintf(rest, sizeof rest, "step %u/%u  sub-iterations %zu  left ", step.step, time_.steps,
                 step.iterations.size());
   const double flown = step.step - first_, left = time_.steps - step.step;
-  return text + rest + clock(elapsed * left / std::max(flown, 1.0));
+  text += rest + clock(elapsed * left / std::max(flown, 1.0));
+  std::snprintf(rest, sizeof rest, "  %.2g of real time",
+                flown * time_.dt / std::max(elapsed, 1e-9));
+  return text + rest;
 }
 
 }  // namespace monarch_flight
