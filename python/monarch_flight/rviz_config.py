@@ -52,8 +52,9 @@ def lit(config):
             display["Color"] = LIGHT_DISPLAYS[display["Name"]]
 
 
-def config(theme="dark", prefix="", space="", panel=None):
-    """The text of the config. `panel`: with the panel of a flight; None: where it was built."""
+def config(theme="dark", prefix="", space="", panel=None, size=None):
+    """The text of the config. `panel`: with the panel of a flight; None: where it was built. `size`: of the window, as
+    1600x900."""
     with open(places.share() / "rviz/monarch.rviz", encoding="utf-8") as file:
         wanted = yaml.safe_load(file)
     named(wanted, prefix, space)
@@ -61,4 +62,6 @@ def config(theme="dark", prefix="", space="", panel=None):
         lit(wanted)
     if not (has_panel() if panel is None else panel):
         wanted["Panels"] = [one for one in wanted["Panels"] if one["Class"] != PANEL]
+    if size:
+        wanted["Window Geometry"].update(zip(("Width", "Height"), map(int, size.split("x"))))
     return yaml.safe_dump(wanted, sort_keys=False, width=100000)

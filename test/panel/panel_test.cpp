@@ -1,5 +1,5 @@
 // The panel of rviz, loaded as rviz loads it, without a display, beside a flight of real nodes.
-#include <monarch_flight/ColourScales.h>
+#include <monarch_flight/WingbeatCommand.h>
 #include <rviz/config.h>
 #include <rviz/panel.h>
 

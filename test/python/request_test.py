@@ -1,9 +1,11 @@
 """What monarch fly makes of its keys, and which of them it refuses together."""
+import io
 import os
 import pathlib
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
@@ -37,6 +39,20 @@ class Requests(unittest.TestCase):
         self.assertEqual(found, ("climb_controlled", "false", "controller"))
         self.assertRegex(str(wanted.folder), r"/flights/climb_controlled-\d{8}-\d{6}$")
         self.assertEqual(request([], BRIGHT).values["rviz"], "true")
+
+    def test_rviz_outlives_the_flight_of_whoever_asks_for_it(self):
+        self.assertTrue(request(["rviz:=true"], BRIGHT).stays)
+        for words, environment in (([], DARK), (["rviz:=false"], BRIGHT), (["in_process:=true"], BRIGHT)):
+            self.assertFalse(request(words, environment).stays, words)
+        with mock.patch("sys.stdout", io.StringIO()):  # no terminal: a script is not held up
+            self.assertFalse(request([], BRIGHT).stays)
+
+    def test_pace_and_theme(self):
+        wanted = request(["rviz:=true", "rate:=0.02", "theme:=light"], BRIGHT)
+        self.assertLessEqual({"rate:=0.02", "theme:=light", "rviz:=true"}, set(wanted.words("launch")))
+        self.assertIn("rate:=0: must be a number > 0", self.faults("rate:=0"))
+        self.assertIn("theme:=blue: must be dark or light", self.faults("theme:=blue"))
+        self.assertIn("rate:=1: needs the nodes", self.faults("rate:=1", "in_process:=true"))
 
     def test_words_for_the_launch_file_and_the_program(self):
         wanted = request(["flaps:=2", f"out:={self.folder / 'new'}", "ranks:=2", "in_process:=true"], BRIGHT)

@@ -54,6 +54,11 @@ class RvizConfig(unittest.TestCase):
         panels = yaml.safe_load(rviz_config.config(panel=False))["Panels"]
         self.assertEqual([one["Class"] for one in panels], ["rviz/Displays"])
 
+    def test_the_size_of_the_window(self):
+        window = made(size="1600x900")["Window Geometry"]
+        self.assertEqual((window["Width"], window["Height"]), (1600, 900))
+        self.assertEqual(window["QMainWindow State"], SOURCE["Window Geometry"]["QMainWindow State"])
+
     def test_saved_views_follow_the_body(self):
         views = SOURCE["Visualization Manager"]["Views"]["Saved"]
         self.assertEqual([view["Name"] for view in views], ["Oblique", "Side", "Front", "Top", "Chase"])

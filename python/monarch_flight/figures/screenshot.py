@@ -67,7 +67,7 @@ def surroundings(screen, work):
     return base, port
 
 
-def raise_curtain(stage, port, names, theme):
+def raise_curtain(stage, port, screen, names, theme):
     """Master, colours and rviz, listening."""
     uri = stage.environment["ROS_MASTER_URI"]
     stage.start("core", "roscore", "-p", port)
@@ -75,7 +75,7 @@ def raise_curtain(stage, port, names, theme):
     stage.run("rosparam", "set", "/use_sim_time", "true")
     stage.start("flow", places.program("flow_view"))
     config = stage.work / "monarch.rviz"
-    config.write_text(rviz_config.config(theme, names.prefix), encoding="utf-8")
+    config.write_text(rviz_config.config(theme, names.prefix, size=screen.size), encoding="utf-8")
     stage.start("rviz", "rviz", "--fullscreen", "-d", config, "__name:=rviz")
     stage.wait_for(60, "rviz", lambda: master.listens(uri, "/rviz", "/monarch_flight/path"))
     stage.wait_for(30, "the wings' colours",
@@ -113,7 +113,7 @@ def take(bag, picture, seconds, theme="dark", size="1600x900"):
         with Screen(size) as screen:
             base, port = surroundings(screen, work)
             with Stage(work, base) as stage:
-                raise_curtain(stage, port, names, theme)
+                raise_curtain(stage, port, screen, names, theme)
                 length = seconds or float(stage.run("rosbag", "info", "-y", "-k", "duration", bag))
                 print(f"screenshot: replaying {length:g} s of flight", flush=True)
                 stage.run("rosbag", "play", "-q", "-r", length / PLAYING or 1.0, "-u", length, bag,
