@@ -1,4 +1,4 @@
-"""The film of a flight: what its frames show and when, and what it refuses. The frames themselves: test/flights/film_test.py."""
+"""The film of a flight: what its frames show, and what it refuses. The frames themselves: test/flights/film_test.py."""
 import pathlib
 import sys
 import tempfile
@@ -115,7 +115,8 @@ class Words(unittest.TestCase):
         self.assertEqual((640, 360), command.settings([str(self.run), str(self.run / "a.gif")])[2]["size"])
 
     def test_faults_are_told_together(self):
-        told = self.refused(str(self.run), str(self.run / "film.avi"), "opacity:=2", "size:=321x180", "to:=1", "from:=2")
+        told = self.refused(str(self.run), str(self.run / "film.avi"), "opacity:=2", "size:=321x180", "to:=1",
+                            "from:=2")
         for words in ("must end with .mp4 or .gif", "opacity:=2: must be above 0, up to 1", "two even numbers",
                       "to:=1: must be above from:=2"):
             self.assertIn(words, told)

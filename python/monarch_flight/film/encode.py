@@ -6,7 +6,8 @@ import sys
 import tempfile
 
 # The colours of a GIF are chosen from what changes; ordered dithering keeps it small.
-GIF = "split[a][b];[a]palettegen=max_colors=256:stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle"
+GIF = ("split[a][b];[a]palettegen=max_colors=256:stats_mode=diff[p];"
+       "[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle")
 MP4 = ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "19", "-preset", "medium", "-movflags", "+faststart"]
 
 
