@@ -50,7 +50,7 @@ def run(runs, case, *options, may_fail=False):
     folder = runs / case_files.run_name(case, *options)
     if not (folder / "summary.json").exists():
         command = [*places.monarch(), "fly", f"case:={case}", f"out:={folder}", "in_process:=true", "rviz:=false",
-                   *options]
+                   "report:=false", *options]
         print("figures: flying", " ".join(command[3:]), flush=True)
         failed = subprocess.run(command, check=False).returncode
         if failed and not (may_fail and (folder / "flight.csv").exists()):

@@ -58,11 +58,12 @@ class Shown:
     def __init__(self, flown):
         self.flown, self.model, self.real = flown, Model(flown.folder), measured(flown)
         self.reference = flown.summary.get("pressure_reference")
-        self.pictures = pressure.pictures(flown, self.model) if self.reference else None
+        self.pictures = pressure.pictures(flown, self.model)
+        self.dynamic = self.reference["dynamic_Pa"] if self.reference else 1.0
 
     def coefficients(self):
-        """Of all points and pictures, or nothing."""
-        return [values / self.reference["dynamic_Pa"] for side, values in (self.pictures or {}).items() if side != "t"]
+        """Of all points and pictures, or nothing; in a run of an older version, which tells no reference, pressures [Pa]."""
+        return [values / self.dynamic for side, values in (self.pictures or {}).items() if side != "t"]
 
     def data(self, label, limit):
         flown, c, rows = self.flown, self.flown.columns, self.flown.frames
@@ -77,7 +78,7 @@ class Shown:
             solids={link: encoded(corners) for link, corners in self.model.solids.items()},
             wings={link: encoded(points) for link, points in self.model.wings.items()},
             measured=None if real is None else encoded(np.stack([real[:, 1], real[:, 0], -real[:, 2]], axis=1)),
-            pressure=None if self.pictures is None else wing_pressure(self.pictures, self.reference["dynamic_Pa"], limit, flown),
+            pressure=None if self.pictures is None else wing_pressure(self.pictures, self.dynamic, limit, flown),
             reference=self.reference)
 
 
@@ -121,6 +122,10 @@ def page(folders):
         for run in runs:
             run.scale = 1.0
     shown = [Shown(run) for run in runs]
+    relative = all(one.reference for one in shown)  # else all in Pa
+    if not relative:
+        for one in shown:
+            one.dynamic = 1.0
     coefficients = [values for one in shown for values in one.coefficients()]
     limit = pressure.limit(coefficients) if coefficients else None
     names = labels(runs)
@@ -128,10 +133,10 @@ def page(folders):
                 runs=[one.data(name, limit) for one, name in zip(shown, names)])
     told = json.dumps(data, allow_nan=False).replace("<", "\\u003c")
     own = places.share() / "report"
-    speeds = [one.reference["speed_m_s"] for one in shown if one.pictures]
+    speeds = [one.reference["speed_m_s"] for one in shown if one.pictures and relative]
     return made.render(
         names=names, runs=runs, facts=facts, provenance=provenance, data=told, scripts=scripts,
-        has_pressure=limit is not None, limit=f"{limit or 0:g}", speed=speeds[0] if speeds else 0,
+        has_pressure=limit is not None, limit=f"{limit or 0:g}", speed=speeds[0] if speeds else 0, relative=relative,
         has_measured=any(one.real is not None for one in shown),
         time_axis="flaps, t/T" if data["beats"] else "seconds",
         differences=facts.differences(runs) if len(runs) > 1 else None, style=text_of(own / "page.css"),
