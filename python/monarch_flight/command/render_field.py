@@ -9,7 +9,7 @@ from monarch_flight.keys import Key, Table
 
 SECTIONS = ("fields", "picture")
 VIEWS = {  # where the camera stands, world axes: x east, y north (forward), z up
-    "side": (1, 0, 0), "above": (0, 0, 1), "front": (0, 1, 0.15), "oblique": (0.8, -0.75, 0.55)}
+    "side": (1, 0, 0), "above": (0, 0, 1), "front": (0, 1, 0.15), "oblique": (0.8, -0.75, 0.55), "ahead": (0.75, 0.65, 0.5)}
 KEYS = Table([
     Key("flap", "number", "time t/T of the picture in flapping periods; the nearest file is taken",
         default="the last one written"),
@@ -52,7 +52,7 @@ def run(arguments):
     from monarch_flight.report.flown import Flown
     from monarch_flight.report.model import Model
     folder = wanted["folder"]
-    flown = Flown(pathlib.Path(folder))
+    flown = Flown(pathlib.Path(folder), ended=False)
     t, flow, wings = flow_files.chosen_files(folder, wanted["flap"])
     with Screen() as screen:
         os.environ.update(screen.environment)

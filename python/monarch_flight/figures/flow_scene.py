@@ -47,7 +47,7 @@ def actor_of(data, array, scale, cells):
     return actor
 
 
-COARSE = 0.1  # spans: where a cell is longer, a surface would only show the cells
+COARSE = 0.15  # spans: where a cell is longer, a surface would only show the cells
 
 
 def fade(grid, span):
@@ -96,7 +96,7 @@ def with_normals(data):
     return normals.GetOutput()
 
 
-CRUMB = 60  # points: less is noise of a few cells
+CRUMB = 150  # points: less is noise of a few cells
 
 
 def without_crumbs(data):
@@ -246,7 +246,7 @@ def draw(flow_file, wing_file, insect, paths, direction, keys):
         surfaces = [surface, mirrored(surface, body[0])][:sides]
     for data in surfaces:
         actor = actor_of(data, "spanwise_vorticity", vorticity_scale, False)
-        actor.GetProperty().SetOpacity(0.6)
+        actor.GetProperty().SetOpacity(0.5)
         actor.GetProperty().SetAmbient(0.35)
         actor.GetProperty().SetDiffuse(0.75)
         renderer.AddActor(actor)

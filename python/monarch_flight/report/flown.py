@@ -16,7 +16,8 @@ def table(path):
     """Columns of a CSV file by name."""
     with open(path, encoding="utf-8") as file:
         names = file.readline().strip().split(",")
-        numbers = np.loadtxt(file, delimiter=",", ndmin=2)
+        lines = [line for line in file if line.endswith("\n")]  # the last one may not be whole yet
+    numbers = np.loadtxt(lines, delimiter=",", ndmin=2)
     return dict(zip(names, numbers.reshape(-1, len(names)).T))
 
 
@@ -31,16 +32,18 @@ class Flown:
     """A run's folder. `columns`: those of flight.csv; `scale`: flaps a second, or 1 where nothing beats (then time is in
     seconds); `rows`: of the curves, `frames`: of the view, numbers of rows of flight.csv."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, ended=True):
+        """`ended`: it must have; else what is flown so far will do, without a summary."""
         self.folder = folder
-        missing = [f"{folder / name}: does not exist; name the folder of a run that has ended (monarch fly writes one)"
-                   for name in ("case.yaml", "flight.csv", "summary.json") if not os.path.isfile(folder / name)]
+        flight = folder / ("flight.csv" if ended or os.path.isfile(folder / "flight.csv") else "flight.csv.active")
+        missing = [f"{path}: does not exist; name the folder of a run that has ended (monarch fly writes one)"
+                   for path in (folder / "case.yaml", flight, folder / "summary.json")[:3 if ended else 2] if not os.path.isfile(path)]
         if missing:
             raise Refused(*missing)
         try:
-            self.summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+            self.summary = json.loads((folder / "summary.json").read_text(encoding="utf-8")) if ended else {}
             self.case = case_files.read(folder / "case.yaml")
-            self.columns = table(folder / "flight.csv")
+            self.columns = table(flight)
             self.iterations = table(folder / "iterations.csv") if os.path.isfile(folder / "iterations.csv") else None
             self.name, self.frequency = self.case["name"], self.case["motion"].get("frequency", 0)
         except (ValueError, KeyError, TypeError) as error:
