@@ -74,7 +74,7 @@ def sweep(runs, case, masses, *options):
 def rendered(folder, flap, out):
     """The picture of a run's flow at t/T = `flap` (monarch render-field)."""
     picture = out / f"fig9_{flap:.1f}.png"
-    command = [*places.monarch(), "render-field", str(folder), str(picture), f"flap:={flap}"]
+    command = [*places.monarch(), "render-field", str(folder), str(picture), f"flap:={flap}", "view:=ahead"]
     if subprocess.run(command, check=False).returncode:
         sys.exit(f"figures: {folder}: no picture of its flow; the reason is above")
     return picture
