@@ -15,7 +15,7 @@ from monarch_flight.report import page, pressure, provenance
 from monarch_flight.keys import Refused
 
 QUICK = ("fluid:=quasi_steady", "in_process:=true", "checkpoint_every:=0")
-BROWSER, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
+BROWSER, DRIVER = "/usr/bin/chromium-headless-shell", "/usr/bin/chromedriver"
 
 
 def array(packed):
@@ -89,7 +89,7 @@ class Report(flying.FlightTest):
             page.page([pathlib.Path(self.folder)])
 
     @unittest.skipUnless(os.access(BROWSER, os.X_OK) and os.access(DRIVER, os.X_OK),
-                         "no Chromium here: scripts/install page")
+                         "no chromium-headless-shell here: scripts/install page")
     def test_drawn_and_played_in_a_browser(self):
         try:
             from selenium import webdriver
@@ -98,8 +98,8 @@ class Report(flying.FlightTest):
         folder, _ = self.flown("run", "flaps:=0.5", "report:=true")
         options = webdriver.ChromeOptions()
         options.binary_location = BROWSER
-        for word in ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                     "--window-size=420,600", "--user-data-dir=" + self.out("browser")):
+        for word in ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                     "--window-size=420,600"):
             options.add_argument(word)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         browser = webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
