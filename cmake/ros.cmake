@@ -57,7 +57,7 @@ install(PROGRAMS examples/first_fluid.py examples/drag_fluid.py examples/first_g
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/monarch_flight/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
   FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY config docs launch rviz urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY config docs launch report rviz urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 # Compiled by the generators of messages, with paths of the build.
 #catkin_lint: ignore_once env_var
 install(CODE "file(GLOB_RECURSE compiled \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CATKIN_PACKAGE_PYTHON_DESTINATION}/*.pyc)

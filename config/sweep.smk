@@ -23,6 +23,6 @@ rule fly:
         options=config["options"] or "",  # of monarch fly; other ones: flown again
     shell:
         "rm -rf runs/{wildcards.name}; code=0; "
-        "{config[monarch]} fly case:={input} out:=runs/{wildcards.name} in_process:=true rviz:=false"
+        "{config[monarch]} fly case:={input} out:=runs/{wildcards.name} in_process:=true rviz:=false report:=false"
         " {params.options} > {log} 2>&1 || code=$?; "
         "[ $code -ne 130 ] && [ -f {output} ] || {{ tail -n 3 {log} >&2; exit 1; }}"

@@ -12,6 +12,16 @@ def installed(*sections):
         must([places.source() / "scripts/install", *sections])
 
 
+def tried(section):
+    """The same for what a command can do without; whoever needs it then says that it is missing."""
+    if places.own_build() is None:
+        return
+    try:
+        subprocess.run([str(places.source() / "scripts/install"), section], check=False)
+    except OSError:
+        pass
+
+
 def built(*arguments):
     if places.own_build() is not None:
         must([places.source() / "scripts/build", *arguments])

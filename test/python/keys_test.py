@@ -125,7 +125,7 @@ class Command(unittest.TestCase):
         for words, fault in (("settle a flap:=1", "did you mean 'flaps'?"), ("sweep jobs:=0", "jobs:=0: must be"),
                              ("figures fig3", "unknown figure 'fig3'"), ("verify image:=x", "did you mean 'images'?"),
                              ("compare-coupling strategies:=plian", "did you mean 'plain'?"),
-                             ("render-field /nowhere view:=below", "must be side, above, front or oblique"),
+                             ("render-field /nowhere view:=below", "must be side, above, front, oblique or ahead"),
                              ("bench step", "did you mean 'steps'?"), ("check lint:=include", "true or a folder"),
                              ("hostile --messages 0", "must be a whole number from 1"),
                              ("keys write:=yes", "write:=yes: must be true or false")):

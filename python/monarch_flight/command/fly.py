@@ -5,6 +5,7 @@ SIGTERM, the end of the terminal)."""
 import os
 
 from monarch_flight import keys, preparing
+from monarch_flight.runs import reporting
 from monarch_flight.runs import request as requests
 from monarch_flight.runs.watched import Stop
 
@@ -33,6 +34,8 @@ def fly(words):
     stop = Stop()
     try:
         preparing.ready(*sections(request))
+        if reporting.wanted(request):
+            preparing.tried("report")
         from monarch_flight.runs import flight
         return flight.fly(request, stop, called())
     except SystemExit as end:  # of a script that was stopped, too

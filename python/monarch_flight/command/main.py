@@ -11,6 +11,7 @@ COMMANDS = {
     "fly": "flies a case, prints its summary",
     "plan": "tells what a run means before it is flown",
     "summary": "prints the summary of a run",
+    "report": "writes a page of a run, or of several beside each other",
     "screenshot": "takes a picture of a recorded flight",
     "film": "makes a film of a recorded flight",
     "figures": "draws the paper's figures from recorded runs",

@@ -1,6 +1,7 @@
-"""Renders the flow of a run, off screen: vortices (iso-Q, coloured by spanwise vorticity), wings by pressure
-coefficient, flown path. The run must have been flown with fields_every:=<steps>."""
+"""Renders the flow of a run, off screen: vortices (iso-Q, coloured by spanwise vorticity, where cells are fine), wings by pressure
+coefficient, body, flown path (red) and measured one (black). The run must have been flown with fields_every:=<steps>."""
 import os
+import pathlib
 import re
 
 from monarch_flight import keys
@@ -8,7 +9,7 @@ from monarch_flight.keys import Key, Table
 
 SECTIONS = ("fields", "picture")
 VIEWS = {  # where the camera stands, world axes: x east, y north (forward), z up
-    "side": (1, 0, 0), "above": (0, 0, 1), "front": (0, 1, 0.15), "oblique": (0.8, -0.75, 0.55)}
+    "side": (1, 0, 0), "above": (0, 0, 1), "front": (0, 1, 0.15), "oblique": (0.8, -0.75, 0.55), "ahead": (0.75, 0.65, 0.5)}
 KEYS = Table([
     Key("flap", "number", "time t/T of the picture in flapping periods; the nearest file is taken",
         default="the last one written"),
@@ -43,13 +44,19 @@ def settings(words):
 
 def run(arguments):
     wanted = settings(arguments.words)
+    import numpy as np
+
     from monarch_flight.figures import flow_files
     from monarch_flight.figures.flow_scene import draw
     from monarch_flight.figures.screen import Screen
+    from monarch_flight.report.flown import Flown
+    from monarch_flight.report.model import Model
     folder = wanted["folder"]
+    flown = Flown(pathlib.Path(folder), ended=False)
     t, flow, wings = flow_files.chosen_files(folder, wanted["flap"])
     with Screen() as screen:
         os.environ.update(screen.environment)
-        draw(flow, wings, flow_files.path_points(folder, t), VIEWS[wanted["view"]], wanted)
+        row = int(np.argmin(np.abs(flown.columns["t"] - t)))
+        draw(flow, wings, (Model(flown.folder), flown.columns, row), flow_files.paths(flown, t), VIEWS[wanted["view"]], wanted)
     T = flow_files.period(folder)
     print("%s: t = %.6g s%s" % (wanted["picture"], t, ", t/T = %.3f" % (t / T) if T else ""))

@@ -3,9 +3,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from monarch_flight.figures import control_data as control
+from monarch_flight.figures.style import GREY, MEASURED, OURS, THEIRS, THIRD
 from monarch_flight.settling.led_flight import COMMANDS
 
-OURS, THEIRS, WANTED = "tab:blue", "tab:red", "black"
+WANTED = MEASURED
 NAMES = dict(amplitude="flapping amplitude", flapping_mean="mean of the flapping", frequency="frequency",
              deviation_mean="mean of the deviation", rest_angle="rest angle of the hinge", abdomen_mean="mean of the abdomen",
              abdomen_amplitude="amplitude of the abdomen", differential_amplitude="differential flapping amplitude",
@@ -27,7 +28,7 @@ def pitch(axes, flight, alone):
             rows = control.rows_shown(one) if one is alone else slice(None)
             axes.plot(one.columns["phase"][rows], np.degrees(one.columns["theta_B"][rows]), **style)
     for limit in (-60, 60):
-        axes.axhline(limit, color="0.4", ls=":", lw=1.2, label="60 deg: tumbled" if limit > 0 else None)
+        axes.axhline(limit, color=GREY, ls=":", lw=1.2, label="60 deg: tumbled" if limit > 0 else None)
     axes.set(title=r"body pitch $\theta_B$", ylabel="angle [deg]", ylim=(-100, 100))
 
 
@@ -49,13 +50,13 @@ def command(axes, flight, name):
     values, limits = control.command(flight, name)
     axes.plot(flight.columns["phase"], values, color=OURS, lw=1, label="flown")
     for i, limit in enumerate(limits):
-        axes.axhline(limit, color="0.4", ls=":", lw=1.2, label=None if i else "limits")
+        axes.axhline(limit, color=GREY, ls=":", lw=1.2, label=None if i else "limits")
     axes.set(title=f"command: {NAMES[name]}", ylabel=f"change [{COMMANDS[name]}]")
 
 
 def wind(axes, flight):
     for values, name, line in zip(control.wind(flight), ("north", "east", "up"), ("-", ":", "--")):
-        axes.plot(flight.columns["phase"], values, color="tab:green", ls=line, lw=1.2, label=name)
+        axes.plot(flight.columns["phase"], values, color=THIRD, ls=line, lw=1.2, label=name)
     axes.set(title="wind at the body", ylabel="velocity [m/s]")
 
 

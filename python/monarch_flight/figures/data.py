@@ -50,7 +50,7 @@ def run(runs, case, *options, may_fail=False):
     folder = runs / case_files.run_name(case, *options)
     if not (folder / "summary.json").exists():
         command = [*places.monarch(), "fly", f"case:={case}", f"out:={folder}", "in_process:=true", "rviz:=false",
-                   *options]
+                   "report:=false", *options]
         print("figures: flying", " ".join(command[3:]), flush=True)
         failed = subprocess.run(command, check=False).returncode
         if failed and not (may_fail and (folder / "flight.csv").exists()):
@@ -74,7 +74,7 @@ def sweep(runs, case, masses, *options):
 def rendered(folder, flap, out):
     """The picture of a run's flow at t/T = `flap` (monarch render-field)."""
     picture = out / f"fig9_{flap:.1f}.png"
-    command = [*places.monarch(), "render-field", str(folder), str(picture), f"flap:={flap}"]
+    command = [*places.monarch(), "render-field", str(folder), str(picture), f"flap:={flap}", "view:=ahead"]
     if subprocess.run(command, check=False).returncode:
         sys.exit(f"figures: {folder}: no picture of its flow; the reason is above")
     return picture

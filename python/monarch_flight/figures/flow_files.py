@@ -1,11 +1,12 @@
 """The files of the flow of a run, and its flown path."""
-import csv
 import os
 import xml.etree.ElementTree
 
+import numpy as np
 import yaml
 
 from monarch_flight.keys import Refused
+from monarch_flight.report.flown import measured
 
 
 def period(folder):
@@ -31,10 +32,13 @@ def chosen_files(folder, flap):
     return t, *(os.path.join(folder, "fields", times[t][part]) for part in ("flow", "wings"))
 
 
-def path_points(folder, until):
-    """The flown path in world axes."""
-    name = os.path.join(folder, "flight.csv")
-    name = name if os.path.isfile(name) else name + ".active"
-    with open(name, newline="") as f:
-        rows = [row for row in csv.DictReader(f) if float(row["t"]) <= until + 1e-12]
-    return [(float(r["y"]), float(r["x"]), -float(r["z"])) for r in rows]
+def paths(flown, until):
+    """The flown path up to a time [s] in world axes, and the measured one from the same start, or none."""
+    c, real = flown.columns, measured(flown)
+    shown = c["t"] <= until + 1e-12
+    found = [np.stack([c["y"], c["x"], -c["z"]], axis=1)[shown]]
+    if real is not None:
+        shown = real["t"] <= until
+        moved = np.stack([real[name] - real[name][0] for name in ("y", "x", "z")], axis=1)[shown] * [1, 1, -1]
+        found.append(found[0][0] + moved)
+    return found

@@ -1,19 +1,24 @@
-"""The scene of monarch render-field: vortices, wings and path, drawn by VTK."""
+"""The scene of monarch render-field: vortices, the insect, and paths, drawn by VTK."""
 import os
 
+import numpy as np
 import vtkmodules.vtkInteractionStyle  # noqa: F401 (VTK chooses its implementations by what is imported)
 import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonTransforms import vtkTransform
-from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkContourFilter, vtkReverseSense, vtkTubeFilter
+from vtkmodules.vtkFiltersCore import (vtkCellDataToPointData, vtkContourFilter, vtkPolyDataConnectivityFilter, vtkReverseSense,
+                                       vtkTubeFilter, vtkWindowedSincPolyDataFilter)
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLStructuredGridReader
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer,
-                                         vtkRenderWindow, vtkWindowToImageFilter)
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkActor2D, vtkColorTransferFunction, vtkPolyDataMapper, vtkPolyDataMapper2D,
+                                         vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+from monarch_flight.figures import insect_actors
 
 # Ends of the two scales, both told apart by eyes that see no red or no green.
 BLUE, RED = (0.13, 0.29, 0.74), (0.73, 0.10, 0.13)
@@ -42,18 +47,70 @@ def actor_of(data, array, scale, cells):
     return actor
 
 
-def vortices(flow, q):
+COARSE = 0.15  # spans: where a cell is longer, a surface would only show the cells
+
+
+def fade(grid, span):
+    """Takes Q away from where cells are coarse, so that surfaces close before they tear."""
+    shape = grid.GetDimensions()[::-1]
+    points = vtk_to_numpy(grid.GetPoints().GetData()).reshape(*shape, 3)
+    longest = np.zeros(shape)
+    for axis in range(3):
+        steps = np.linalg.norm(np.diff(points, axis=axis), axis=-1)
+        ends = [(1, 0) if k == axis else (0, 0) for k in range(3)]
+        longest = np.maximum(longest, np.maximum(np.pad(steps, ends), np.pad(steps, [pair[::-1] for pair in ends])))
+    share = np.clip(2.0 - longest / (0.5 * COARSE * span), 0.0, 1.0).ravel()
+    q = vtk_to_numpy(grid.GetPointData().GetArray("Q"))
+    faded = numpy_to_vtk(q * share, deep=True)
+    faded.SetName("Q shown")
+    grid.GetPointData().AddArray(faded)
+    grid.GetPointData().SetActiveScalars("Q shown")
+
+
+def vortices(flow, q, span):
     to_points = vtkCellDataToPointData()
     to_points.SetInputData(flow)
     to_points.Update()
     grid = to_points.GetOutput()
-    grid.GetPointData().SetActiveScalars("Q")
+    fade(grid, span)
     contour = vtkContourFilter()
     contour.SetInputData(grid)
     contour.SetValue(0, q)
     contour.ComputeScalarsOff()
-    contour.Update()
-    return contour.GetOutput()
+    contour.ComputeNormalsOff()
+    smooth = vtkWindowedSincPolyDataFilter()
+    smooth.SetInputConnection(contour.GetOutputPort())
+    smooth.SetNumberOfIterations(30)
+    smooth.SetPassBand(0.05)
+    smooth.NonManifoldSmoothingOn()
+    smooth.NormalizeCoordinatesOn()
+    smooth.Update()
+    return with_normals(without_crumbs(smooth.GetOutput()))
+
+
+def with_normals(data):
+    normals = insect_actors.vtkPolyDataNormals()
+    normals.SetInputData(data)
+    normals.SplittingOff()
+    normals.Update()
+    return normals.GetOutput()
+
+
+CRUMB = 150  # points: less is noise of a few cells
+
+
+def without_crumbs(data):
+    regions = vtkPolyDataConnectivityFilter()
+    regions.SetInputData(data)
+    regions.SetExtractionModeToAllRegions()
+    regions.Update()
+    sizes = vtk_to_numpy(regions.GetRegionSizes()) if regions.GetNumberOfExtractedRegions() else []
+    regions.SetExtractionModeToSpecifiedRegions()
+    for number, size in enumerate(sizes):
+        if size >= CRUMB:
+            regions.AddSpecifiedRegion(number)
+    regions.Update()
+    return regions.GetOutput()
 
 
 def mirrored(data, east):
@@ -72,7 +129,7 @@ def mirrored(data, east):
     return outside.GetOutput()
 
 
-def path(points, radius):
+def path(points, radius, colour):
     line = vtkPolyData()
     places, cells = vtkPoints(), vtkCellArray()
     for p in points:
@@ -92,7 +149,7 @@ def path(points, radius):
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(0.15, 0.15, 0.15)
+    actor.GetProperty().SetColor(*colour)
     return actor
 
 
@@ -107,7 +164,7 @@ def bar(scale, title, x):
     legend.SetHeight(0.36)
     legend.SetLabelFormat("%.3g")
     legend.UnconstrainedFontSizeOn()
-    for text, size in ((legend.GetTitleTextProperty(), 26), (legend.GetLabelTextProperty(), 22)):
+    for text, size in ((legend.GetTitleTextProperty(), 30), (legend.GetLabelTextProperty(), 27)):
         text.SetColor(0, 0, 0)
         text.SetFontSize(size)
         text.BoldOff()
@@ -116,19 +173,53 @@ def bar(scale, title, x):
     return legend
 
 
-def wing_actors(wings, limit):
+def wing_actors(surfaces, limit):
     """Both sides, each by its own pressure: the front side of every face is the ventral one."""
-    scale = diverging(limit, BLUE, RED)
-    dorsal, ventral = actor_of(wings, "Cp_dorsal", scale, True), actor_of(wings, "Cp_ventral", scale, True)
-    dorsal.GetProperty().FrontfaceCullingOn()
-    ventral.GetProperty().BackfaceCullingOn()
-    for actor in (dorsal, ventral):
-        actor.GetProperty().LightingOff()
-    return [dorsal, ventral], scale
+    scale, actors = diverging(limit, BLUE, RED), []
+    for wings in surfaces:
+        dorsal, ventral = actor_of(wings, "Cp_dorsal", scale, False), actor_of(wings, "Cp_ventral", scale, False)
+        dorsal.GetProperty().FrontfaceCullingOn()
+        ventral.GetProperty().BackfaceCullingOn()
+        for actor in (dorsal, ventral):
+            actor.GetProperty().LightingOff()
+            actors.append(actor)
+    return actors, scale
 
 
-def draw(flow_file, wing_file, points, direction, keys):
-    """Writes the picture keys["picture"]."""
+def scale_bar(renderer, size):
+    """A bar of a round length at the lower right; the projection is parallel, so it holds everywhere."""
+    seen = 2 * renderer.GetActiveCamera().GetParallelScale()  # m in the height of the picture
+    power = 10.0 ** np.floor(np.log10(0.25 * seen))
+    length = max(step * power for step in (1, 2, 5) if step * power <= 0.25 * seen)
+    pixels, right, low = length / seen * size[1], size[0] - 60, 60
+    line, places, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+    for x, y in ((right - pixels, low + 10), (right - pixels, low), (right, low), (right, low + 10)):
+        places.InsertNextPoint(x, y, 0)
+    cells.InsertNextCell(4)
+    for i in range(4):
+        cells.InsertCellPoint(i)
+    line.SetPoints(places)
+    line.SetLines(cells)
+    mapper, actor = vtkPolyDataMapper2D(), vtkActor2D()
+    mapper.SetInputData(line)
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0, 0, 0)
+    actor.GetProperty().SetLineWidth(3)
+    text = vtkTextActor()
+    text.SetInput(f"{1e3 * length:g} mm" if length < 0.01 else f"{1e2 * length:g} cm" if length < 1 else f"{length:g} m")
+    text.GetTextProperty().SetFontSize(30)
+    text.GetTextProperty().SetColor(0, 0, 0)
+    text.GetTextProperty().SetJustificationToCentered()
+    text.SetPosition(right - pixels / 2, low + 16)
+    return actor, text
+
+
+FLOWN, MEASURED = (0.80, 0.10, 0.12), (0.1, 0.1, 0.1)
+
+
+def draw(flow_file, wing_file, insect, paths, direction, keys):
+    """Writes the picture keys["picture"]. `insect`: model, columns of flight.csv and the row of this time; `paths`: flown, and
+    measured where there is one."""
     readers = vtkXMLStructuredGridReader(), vtkXMLPolyDataReader()
     for reader, name in zip(readers, (flow_file, wing_file)):
         reader.SetFileName(name)
@@ -139,33 +230,33 @@ def draw(flow_file, wing_file, points, direction, keys):
     q = keys["q"] or flow.GetFieldData().GetArray("Q_threshold").GetTuple1(0)
     body = flow.GetFieldData().GetArray("body").GetTuple3(0)
     sides = 2 if wings.GetBounds()[0] < body[0] < wings.GetBounds()[1] else 1  # a bare wing stands alone
-    bounds = wings.GetBounds()
-    span = max(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4])
+    span = insect[0].span
 
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
-    surface = vortices(flow, q)
+    surface = vortices(flow, q, span)
     vorticity_scale = diverging(keys["vorticity"] or 4 * q ** 0.5, TEAL, ORANGE)
     left_file = os.path.join(os.path.dirname(flow_file), "flow_left_" + os.path.basename(flow_file).split("_", 1)[1])
     if os.path.exists(left_file):  # both wings are solved
         left_reader = vtkXMLStructuredGridReader()
         left_reader.SetFileName(left_file)
         left_reader.Update()
-        surfaces = [surface, vortices(left_reader.GetOutput(), q)]
+        surfaces = [surface, vortices(left_reader.GetOutput(), q, span)]
     else:
         surfaces = [surface, mirrored(surface, body[0])][:sides]
     for data in surfaces:
         actor = actor_of(data, "spanwise_vorticity", vorticity_scale, False)
-        actor.GetProperty().SetOpacity(0.6)
+        actor.GetProperty().SetOpacity(0.5)
         actor.GetProperty().SetAmbient(0.35)
         actor.GetProperty().SetDiffuse(0.75)
         renderer.AddActor(actor)
-    actors, pressure_scale = wing_actors(wings, keys["cp"] or 1.0)
-    for actor in actors:
+    actors, pressure_scale = wing_actors(insect_actors.smooth_wings(*insect, wings), keys["cp"] or 1.0)
+    for actor in actors + insect_actors.bodies(*insect):
         renderer.AddActor(actor)
     shown = renderer.ComputeVisiblePropBounds()  # the path may run out of the picture
-    if len(points) > 1:
-        renderer.AddActor(path(points, 0.006 * span))
+    for points, colour in zip(paths, (FLOWN, MEASURED)):
+        if len(points) > 1:
+            renderer.AddActor(path(points, 0.012 * span, colour))
     renderer.AddActor2D(bar(vorticity_scale, "spanwise\nvorticity [1/s]", 0.01))
     renderer.AddActor2D(bar(pressure_scale, "wing\nCp", 0.14))
 
@@ -177,7 +268,10 @@ def draw(flow_file, wing_file, points, direction, keys):
     renderer.ResetCamera(shown)
     camera.Zoom(1.25)
     renderer.ResetCameraClippingRange()
-    save(renderer, [int(n) for n in keys["size"].split("x")], keys["picture"])
+    size = [int(n) for n in keys["size"].split("x")]
+    for one in scale_bar(renderer, size):
+        renderer.AddActor2D(one)
+    save(renderer, size, keys["picture"])
 
 
 def save(renderer, size, name):

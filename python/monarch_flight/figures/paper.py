@@ -3,21 +3,19 @@ figure, or several by their names."""
 import json
 import math
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from mpl_toolkits.mplot3d import proj3d
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-from monarch_flight import places  # noqa: E402
-from monarch_flight.figures import data  # noqa: E402
-from monarch_flight.figures.control import figure_control  # noqa: E402
-from monarch_flight.measured import marker_reduction as reduction  # noqa: E402
+from monarch_flight import places
+from monarch_flight.figures import data
+from monarch_flight.figures.control import figure_control
+from monarch_flight.figures.style import FAINT, GREY, MEASURED, OURS, THEIRS, THIRD
+from monarch_flight.measured import marker_reduction as reduction
 
 deg = np.degrees
-OURS, THEIRS, MEASURED = "tab:blue", "tab:red", "black"
 FLU = np.array([1, -1, -1])  # forward, right, down to forward, left, up: what a plot with z up shows unmirrored
-plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "savefig.dpi": 160})
 
 
 def rotation(axis, angle):
@@ -26,11 +24,23 @@ def rotation(axis, angle):
                      "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]]}[axis])
 
 
-def arrows(axes, frame, names, colour, length):
+def arrows(axes, frame, names, colour, length, lift):
+    """Unit vectors from the origin; `lift` moves the names off each other on the picture [points]."""
     for i, name in enumerate(names):
+        if not name:
+            continue
         tip = length * frame[:, i] * FLU
-        axes.plot(*zip(np.zeros(3), tip), color=colour, lw=1.6)
-        axes.text(*(1.18 * tip), name, color=colour, ha="center", va="center")
+        axes.quiver(0, 0, 0, *tip, color=colour, lw=1.5, arrow_length_ratio=0.09)
+        x, y, _ = proj3d.proj_transform(*(1.04 * tip), axes.get_proj())
+        x0, y0, _ = proj3d.proj_transform(0, 0, 0, axes.get_proj())
+        away = np.array([x - x0, y - y0]) / max(math.hypot(x - x0, y - y0), 1e-9)
+        shift = 9 * away + lift.get(name, (0, 0))
+        axes.annotate(name, (x, y), xytext=shift, textcoords="offset points", color=colour, ha="center", va="center", zorder=20,
+                      bbox=dict(boxstyle="round,pad=0.08", fc="white", ec="none", alpha=0.8))
+
+
+B, S, R = ([rf"${frame}_{axis}$" for axis in "xyz"] for frame in "bsr")
+S[1] = ""  # that of the body
 
 
 def figure_2(_):
@@ -40,28 +50,32 @@ def figure_2(_):
     x = np.concatenate([outline["leading"], outline["trailing"][::-1]])
     y = np.concatenate([outline["y"], outline["y"][::-1]])
     plate = np.stack([x, y, 0 * x])
-    wings = {r"a) flapping $\varphi_R$ = 30°": rotation("x", angle), r"b) pitch $\theta_R$ = 30°": rotation("y", angle),
-             r"c) deviation $\psi_R$ = 30°": rotation("z", -angle)}
-    figure = plt.figure(figsize=(11, 4.2), constrained_layout=True)
-    for n, (title, Q) in enumerate(wings.items(), 1):
-        axes = figure.add_subplot(1, 3, n, projection="3d", proj_type="ortho")
+    # Names that would lie on others, and where they go instead [points].
+    wings = {r"a) flapping $\varphi_R$ = 30°": (rotation("x", angle), {S[0]: (-14, 4), R[0]: (8, -4), R[2]: (10, 0), B[2]: (-4, 0)}),
+             r"b) pitch $\theta_R$ = 30°": (rotation("y", angle), {R[1]: (-14, -4), B[1]: (0, 10), B[2]: (-9, 4)}),
+             r"c) deviation $\psi_R$ = 30°": (rotation("z", -angle), {S[2]: (-12, 0), R[2]: (12, 0)})}
+    figure = plt.figure(figsize=(11.5, 4.4))
+    for n, (title, (Q, lift)) in enumerate(wings.items()):
+        axes = figure.add_axes((0.333 * n, 0.0, 0.333, 0.9), projection="3d", proj_type="ortho")
         stroke, wing = rotation("y", beta), rotation("y", beta) @ Q
         flat = stroke @ plate
-        axes.plot(*(FLU[:, None] * flat), color="0.6", lw=1, ls="--", label="wing with all angles 0")
+        axes.plot(*(FLU[:, None] * flat), color=GREY, lw=1, ls="--", label="wing with all angles 0")
+        axes.add_collection3d(Poly3DCollection([(FLU[:, None] * (wing @ plate)).T], fc=OURS, ec=OURS, alpha=0.22, lw=1.6))
         axes.plot(*(FLU[:, None] * (wing @ plate)), color=OURS, lw=1.6, label="wing")
         s = np.linspace(0, 2 * np.pi, 60)
-        axes.plot(1.5 * np.cos(s), 0 * s, 0.4 * np.sin(s), color="0.4", lw=1, label="body")
-        arrows(axes, np.eye(3), [r"$b_x$", r"$b_y$", r"$b_z$"], "black", 2.2)
-        arrows(axes, stroke, [r"$s_x$", "", r"$s_z$"], "tab:green", 3.2)
-        arrows(axes, wing, [r"$r_x$", r"$r_y$", r"$r_z$"], THEIRS, 4.2)
-        axes.set(title=title, xlabel="forward [cm]", ylabel="left [cm]", zlabel="up [cm]", xlim=(-4, 4), ylim=(-7, 1),
-                 zlim=(-4, 4))
-        axes.set_box_aspect((1, 1, 1), zoom=0.88)
+        axes.plot(1.5 * np.cos(s), 0 * s, 0.4 * np.sin(s), color=GREY, lw=1.2, label="body")
+        axes.set(xlim=(-4, 4), ylim=(-7, 1), zlim=(-4, 4))
+        axes.set_box_aspect((1, 1, 1), zoom=1.25)
         axes.view_init(elev=35, azim=-125)
-        axes.tick_params(labelsize=7)
-        if n == 1:
-            axes.legend(loc="upper left", fontsize=7)
-    figure.suptitle(r"Body axes (black), stroke axes at $\beta$ = 25.4° (green), right wing's axes (red); NED, z down")
+        axes.set_axis_off()
+        arrows(axes, np.eye(3), B, MEASURED, 2.4, lift)
+        arrows(axes, stroke, S, THIRD, 3.4, lift)
+        arrows(axes, wing, R, THEIRS, 4.2, lift)
+        figure.text(0.333 * n + 0.03, 0.87, title, fontsize=10)
+        if n == 0:
+            axes.legend(loc="lower left", bbox_to_anchor=(0.05, 0.02))
+    figure.suptitle(r"Body axes $b$ (black), stroke axes $s$ at $\beta$ = 25.4° (green), axes $r$ of the right wing (orange); z points down; "
+                    "lengths differ only to tell them apart", x=0.03, ha="left", fontsize=9)
     return figure
 
 
@@ -85,7 +99,7 @@ def figure_4(settings):
         lift = -1e3 * flight["FZ"]
         top.plot(t, deg(flight["theta_R"]), color=colour, ls=line, label=label)
         bottom.plot(t, lift, color=colour, ls=line, label=f"{label}, mean {lift[:-1].mean():.3f} mN")
-    top.plot(t, deg(flight["phi"]), color="0.6", lw=1, label=r"flapping $\varphi$ (prescribed)")
+    top.plot(t, deg(flight["phi"]), color=GREY, lw=1, label=r"flapping $\varphi$ (prescribed)")
     top.set(ylabel="angle [deg]", title="Hinge case, sixth stroke: a) passive pitch, b) lift")
     bottom.set(xlabel="t/T", ylabel="lift of the wing [mN]", xlim=(0, 1), ylim=(-0.2, 2.4))
     for axes in (top, bottom):
@@ -99,7 +113,7 @@ def figure_5(_):
     markers, velocity = reduction.along_flight(t, markers)
     figure = plt.figure(figsize=(12, 4.6))
     axes = figure.add_axes((0.0, 0.0, 0.5, 0.95), projection="3d", proj_type="ortho")
-    groups = {"thorax": (["T1", "T2"], "black"), "abdomen": (["A1", "A2"], "tab:green"),
+    groups = {"thorax": (["T1", "T2"], "black"), "abdomen": (["A1", "A2"], THIRD),
               "left wing": (["LW1", "LW2", "LW3"], OURS), "right wing": (["RW1", "RW2", "RW3"], THEIRS)}
     origin = 0.5 * (markers["T1"][0] + markers["T2"][0])
     for label, (names, colour) in groups.items():
@@ -135,10 +149,10 @@ def figure_6(_):
         flap = series["frequency"] / (2 if name == "psi" else 1)
         for side, marker in (("L", "<"), ("R", ">")):
             if f"{name}_{side}" in flight["columns"]:
-                axes.plot(t * flap % 1, deg(flight["columns"][f"{name}_{side}"]), marker, color="0.65", ms=3,
+                axes.plot(t * flap % 1, deg(flight["columns"][f"{name}_{side}"]), marker, color=FAINT, ms=3,
                           label={"L": "left wing", "R": "right wing"}[side])
         if f"{name}_L" not in flight["columns"]:
-            axes.plot(t * flap % 1, deg(flight["columns"][name]), "o", color="0.65", ms=3, label="measured")
+            axes.plot(t * flap % 1, deg(flight["columns"][name]), "o", color=FAINT, ms=3, label="measured")
         axes.plot(s, deg(reduction.evaluate(series, s / flap, series["frequency"])), color=OURS, label="fit (ours)")
         theirs = published[name + "_deg"]
         axes.plot(s, reduction.evaluate(theirs, s, theirs["multiple"]), color=THEIRS, ls="--", label="published series")
@@ -206,7 +220,7 @@ def figure_8(settings):
     for axes, title, name in zip(grid[1], (r"c) wing pitch $\theta_R$", r"d) body pitch $\theta_B$"), ("theta_R", "theta_B")):
         axes.plot(t, deg(flight[name]), color=OURS, label="simulated")
         fit = real["series"][name]
-        axes.plot(s, deg(real["columns"][name]), "o", color="0.65", ms=2.5, label="measured")
+        axes.plot(s, deg(real["columns"][name]), "o", color=FAINT, ms=2.5, label="measured")
         axes.plot(s, deg(reduction.evaluate(fit, real["columns"]["t"], fit["frequency"])), color=MEASURED, ls=":",
                   label="measured, Fourier fit")
         axes.set(title=title, ylabel="angle [deg]", xlabel="t/T")
@@ -219,12 +233,22 @@ def figure_8(settings):
     return figure
 
 
+def cropped(picture, margin=20):
+    """A picture without its white rim."""
+    seen = np.argwhere((picture[..., :3] < 0.985).any(axis=2))
+    low, high = np.maximum(seen.min(axis=0) - margin, 0), seen.max(axis=0) + margin
+    return picture[low[0]:high[0], low[1]:high[1]]
+
+
 def figure_9(settings):
     """Vortices, wing pressure and flown path at t/T = 0.5 and 3, rendered off screen."""
     folder = free_run(settings)
-    figure, panels = plt.subplots(1, 2, figsize=(13, 4.8), constrained_layout=True)
-    for axes, flap, name in zip(panels, (0.5, 3.0), "ab"):
-        axes.imshow(plt.imread(data.rendered(folder, flap, settings.out)))
+    pictures = {flap: cropped(plt.imread(data.rendered(folder, flap, settings.out))) for flap in (0.5, 3.0)}
+    shares = [picture.shape[1] / picture.shape[0] for picture in pictures.values()]
+    figure, panels = plt.subplots(1, 2, figsize=(12, 12 / sum(shares) + 0.35), gridspec_kw=dict(width_ratios=shares),
+                                  constrained_layout=True)
+    for axes, (flap, picture), name in zip(panels, pictures.items(), "ab"):
+        axes.imshow(picture, interpolation="lanczos")
         axes.set(title=f"{name}) t/T = {flap}")
         axes.axis("off")
     return figure
@@ -247,8 +271,8 @@ def figure_dynamics(settings):
         n = [int(r["resolution"].split()[0]) for r in chosen]
         right.loglog(n, [r["error"] for r in chosen], "o-", label=start)
     n = np.array([250, 2000])
-    right.loglog(n, 1e-3 * (250 / n) ** 2, color="0.5", ls="--", label="second order")
-    right.loglog(n, 0.2 * 250 / n, color="0.5", ls=":", label="first order")
+    right.loglog(n, 1e-3 * (250 / n) ** 2, color=GREY, ls="--", label="second order")
+    right.loglog(n, 0.2 * 250 / n, color=GREY, ls=":", label="first order")
     right.set(xlabel="steps a flap", ylabel="relative error after a flap", title="Time stepping against order 8")
     for axes in (left, right):
         axes.legend(fontsize=8)

@@ -3,10 +3,9 @@ import json
 import os
 from collections import defaultdict
 
-import matplotlib
+from matplotlib import pyplot as plt
 
-matplotlib.use("Agg")
-from matplotlib import pyplot as plt  # noqa: E402  (the backend comes first)
+from monarch_flight.figures import style  # noqa: F401 (sets how all figures look)
 
 
 def draw(name, curves, folder):
@@ -27,7 +26,6 @@ def draw(name, curves, folder):
                       label="order %d" % order)
     axes.set_xlabel(first["x_label"])
     axes.set_ylabel(first["y_label"])
-    axes.grid(True, linewidth=0.3)
     axes.legend(fontsize=6, **({"loc": "upper left", "bbox_to_anchor": (1.01, 1)} if many else {}))
     figure.tight_layout()
     figure.savefig(os.path.join(folder, "verify_%s.png" % name.replace(" ", "_")), metadata={"Software": None})

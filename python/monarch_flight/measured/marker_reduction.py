@@ -7,7 +7,6 @@ Q_R = exp(beta e2) exp(phi e1) exp(-psi e3) exp(theta e2). SI units and radians.
 import csv
 
 import numpy as np
-from scipy.optimize import least_squares
 
 RATE = 200.0  # frames a second
 MARKERS = ["LW1", "LW2", "LW3", "RW1", "RW2", "RW3", "T1", "T2", "A1", "A2"]
@@ -114,6 +113,8 @@ def design(t, frequency, order):
 
 def fit(t, y, guess, order):
     """Fourier series of y by least squares, its frequency [Hz] included: {frequency, A0, AN, BN, rms}."""
+    from scipy.optimize import least_squares  # which readers of the histories alone do without
+
     def residual(f):
         a = design(t, f[0], order)
         return a @ np.linalg.lstsq(a, y, rcond=None)[0] - y
@@ -132,8 +133,8 @@ def evaluate(series, t, frequency):
     return y
 
 
-def reduce(t, markers, beta):
-    """Everything about the flight: time histories, series, velocity, climb angle, stroke plane."""
+def histories(t, markers, beta):
+    """Time histories of angles, path and velocity of the thorax; its mean velocity; span directions of each side."""
     markers, velocity = along_flight(t, markers)
     theta_B = pitch_of(markers["T1"] - markers["T2"])
     theta_A = pitch_of(markers["T2"] - 0.5 * (markers["A1"] + markers["A2"])) - theta_B
@@ -150,8 +151,13 @@ def reduce(t, markers, beta):
             columns[f"{name}_{side}"] = q
     columns.update(zip(("x", "y", "z"), (thorax - thorax[0]).T))
     columns.update(zip(("vx", "vy", "vz"), np.gradient(thorax, t, axis=0).T))
+    return columns, velocity, [axes[0] for axes in sides.values()]
+
+
+def reduce(t, markers, beta):
+    """Everything about the flight: time histories, series, velocity, climb angle, stroke plane."""
+    columns, velocity, spans = histories(t, markers, beta)
     orders = dict(theta_B=(10.2, 1), phi=(10.2, 5), psi=(20.4, 1), theta_R=(10.2, 5), theta_A=(10.2, 1))
-    spans = np.concatenate([sides["L"][0], sides["R"][0]])
     return dict(columns=columns, series={k: fit(t, columns[k], *orders[k]) for k in ANGLES},
                 velocity=velocity, climb=float(np.arctan2(-velocity[2], velocity[0])),
-                speed=float(np.linalg.norm(velocity)), beta=stroke_plane(spans))
+                speed=float(np.linalg.norm(velocity)), beta=stroke_plane(np.concatenate(spans)))

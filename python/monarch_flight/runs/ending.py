@@ -2,7 +2,7 @@
 import os
 import shlex
 
-from monarch_flight.runs import node_keys, summary
+from monarch_flight.runs import node_keys, reporting, summary
 from monarch_flight.telling import FAILED, STOPPED, passed_on, say, signal_of
 
 REFUSED = 2
@@ -77,4 +77,8 @@ class Ending:
             else:
                 say("not flown; the reason is above")
             return REFUSED if refused else code or FAILED
-        return summary.show(self.folder)
+        page = reporting.written(self.folder) if reporting.wanted(self.request) and self.told().get("steps") else None
+        code = summary.show(self.folder)
+        if page:
+            print(f"see the flight in a browser: {page}")
+        return code

@@ -162,7 +162,7 @@ def coupling(table, out):
     for name, keys in flights.items():
         folder = os.path.join(out, "coupling_" + name)
         shutil.rmtree(folder, ignore_errors=True)
-        run([*places.monarch(), "fly", "case:=climb_printed", "out:=" + folder, "rviz:=false"] + keys)
+        run([*places.monarch(), "fly", "case:=climb_printed", "out:=" + folder, "rviz:=false", "report:=false"] + keys)
         times[name] = step_times(folder)
     chains = [t.exchange / (t.sub_iterations + 1) for t in times["chain"]]  # and the COMMIT's chain
     table.add("sub_iteration_chain_median", 1e3 * statistics.median(chains), "ms", 0.6)

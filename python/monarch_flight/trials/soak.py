@@ -88,7 +88,7 @@ def verdict(samples):
 def fly(count, over_nodes, folder):
     """(summary, samples) of a watched flight; the summary is None when it failed."""
     out, log = os.path.join(folder, "out"), os.path.join(folder, "log.txt")
-    command = [*places.monarch(), "fly", "case:=hinge", "fluid:=quasi_steady",
+    command = [*places.monarch(), "fly", "case:=hinge", "fluid:=quasi_steady", "report:=false",
                "record:=false", "flaps:=%.9g" % (round(count / PER_STEP) / STEPS_PER_FLAP),
                "steps_per_flap:=%d" % STEPS_PER_FLAP, "out:=" + out]
     command += ["rviz:=false"] if over_nodes else ["in_process:=true"]

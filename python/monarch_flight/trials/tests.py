@@ -62,7 +62,7 @@ def tested(root, sanitizers, arguments):
         options, arguments = sanitized(root, sanitizers), UNSANITIZED + arguments
     build = build_folder(root)
     os.environ["MONARCH_BUILD"] = str(build)  # this tree's, whatever this shell has sourced
-    preparing.installed("fly", "check")
+    preparing.installed("fly", "check", "report")
     preparing.built("--tests", *options)
     environment = dict(preparing.one_threaded(), PATH=system_path())
     command = ["ctest", "-j", str(os.cpu_count() or 1), "--output-on-failure", "--no-tests=error", *arguments]

@@ -17,7 +17,7 @@ class Flight:
         env.update(processes.marked(folder), MONARCH_AS_BUILT="1", ROS_LOG_DIR=folder + ".log", **environment)
         with open(self.log, "a") as log:
             # Commands in a shell's background do not hear SIGINT, and hand that on.
-            self.process = subprocess.Popen([*places.monarch(), "fly", *keys], stdout=log, stderr=log, env=env,
+            self.process = subprocess.Popen([*places.monarch(), "fly", "report:=false", *keys], stdout=log, stderr=log, env=env,
                                             stdin=subprocess.DEVNULL, start_new_session=True,
                                             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 

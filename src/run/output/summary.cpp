@@ -6,6 +6,7 @@
 
 #include "monarch_flight/fluid/instruction_set.h"
 #include "monarch_flight/math/seconds_since.h"
+#include "monarch_flight/run/pressure_reference.h"
 #include "monarch_flight/run/remarks.h"
 
 namespace monarch_flight {
@@ -245,6 +246,8 @@ std::string Summary::json(const std::string& failure) const {
                            {"malformed", ignored_.malformed},
                            {"forged", ignored_.forged}};
   j["cells"] = cells_;
+  const PressureReference reference = pressureReference(case_);
+  j["pressure_reference"] = {{"speed_m_s", reference.speed}, {"dynamic_Pa", reference.dynamic}};
   j["added_mass"] = matrix(added_mass_);
   j["state_sha256"] = hash_.hex();
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
