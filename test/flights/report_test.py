@@ -5,6 +5,8 @@ import json
 import os
 import pathlib
 import re
+import secrets
+import signal
 import subprocess
 import unittest
 
@@ -13,6 +15,7 @@ import numpy as np
 import flying
 from monarch_flight.report import page, pressure, provenance
 from monarch_flight.keys import Refused
+from monarch_flight.runs import watched
 
 QUICK = ("fluid:=quasi_steady", "in_process:=true", "checkpoint_every:=0")
 BROWSER, DRIVER = "/usr/bin/chromium-headless-shell", "/usr/bin/chromedriver"
@@ -102,6 +105,8 @@ class Report(flying.FlightTest):
                      "--window-size=420,600"):
             options.add_argument(word)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        os.environ[watched.MARK] = mark = secrets.token_hex(8)  # the browser may outlive its driver
+        self.addCleanup(lambda: watched.send(watched.marked(mark), signal.SIGKILL))
         browser = webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
         self.addCleanup(browser.quit)
         browser.set_script_timeout(60)
