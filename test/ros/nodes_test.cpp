@@ -24,7 +24,7 @@ TEST_F(Nodes, FlyLikeOneProcessBitForBit) {
   EXPECT_EQ(fileText(folder / "alone/flight.csv"), fileText(folder / "run/flight.csv"));
 }
 
-TEST_F(Nodes, ARateHoldsTheFlightBackAndDoesNotChangeIt) {
+TEST_F(Nodes, ARateHoldsTheFlightBack) {
   ros::param::set("/monarch_flight/rate", 0.004);
   startAll();
   ASSERT_TRUE(coordinator->prints("results in", 20.0)) << coordinator->output();
