@@ -83,9 +83,7 @@ class FluidModel {
   /// Of the committed level, as `flowField`. Velocities stand in the axes of the next level while
   /// it is computed: both throw std::logic_error between evaluate and commit. The vortices around
   /// the wing on at most `limit` points (>= 8); empty where there is no field.
-  virtual FlowPicture flowPicture(std::size_t limit) const {
-    return static_cast<void>(limit), FlowPicture();
-  }
+  virtual FlowPicture flowPicture(std::size_t /*limit*/) const { return {}; }
   /// The committed level as a whole; null where there is no field.
   virtual std::shared_ptr<const FlowField> flowField() const { return nullptr; }
 };

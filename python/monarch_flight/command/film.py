@@ -22,8 +22,8 @@ KEYS = Table([
     Key("to", "number", "where it ends", unit="flaps", above=0, default="the end of the flight"),
     Key("q", "number", "vortices are where Q exceeds so many (peak tip speed / mean chord)^2", above=0, default="0.04"),
     Key("opacity", "number", "of the vortices, up to 1", above=0, default="0.55"),
-    Key("distance", "number", "of the camera from the body", unit="spans of a wing", above=0, default="5.4")])
-DEFAULTS = {"slow": 10.0, "fps": 25.0, "from": 0.0, "to": None, "q": 0.04, "opacity": 0.55, "distance": 5.4}
+    Key("distance", "number", "of the camera from the body", unit="spans of a wing", above=0, default="5")])
+DEFAULTS = {"slow": 10.0, "fps": 25.0, "from": 0.0, "to": None, "q": 0.04, "opacity": 0.55, "distance": 5.0}
 
 
 def add_arguments(parser):
