@@ -2,7 +2,7 @@
 find_package(rviz QUIET)
 find_package(Qt5 QUIET COMPONENTS Widgets)
 if(NOT rviz_FOUND OR NOT Qt5_FOUND)
-  message(STATUS "Headers of rviz or Qt not found (scripts/install view): built without the panel of rviz")
+  message(STATUS "Headers of rviz or Qt not found (scripts/install panel): built without the panel of rviz")
   return()
 endif()
 set(MONARCH_PANEL ON)

@@ -8,6 +8,8 @@ import os
 import pathlib
 import sys
 
+import rosbag
+
 from monarch_flight import rviz_config
 from monarch_flight.runs import recorded_names
 from monarch_flight.runs.master import ask, space
@@ -31,7 +33,11 @@ def prefix(given):
     """Of the insect's frames: as given, as the bag has it, as the flight was told, else the namespace."""
     wanted = given.get("frame_prefix")
     if wanted is None and "flight" in given:
-        return recorded_names.of(pathlib.Path(given["flight"]) / "flight.bag").prefix
+        bag = pathlib.Path(given["flight"]) / "flight.bag"
+        try:
+            return recorded_names.of(bag).prefix
+        except (OSError, rosbag.ROSBagException) as error:
+            sys.exit(f"show: {bag} cannot be read ({error}); name the folder of a run that was recorded")
     master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
     wanted = wanted or ask(master, "getParam", f"{space()}/frame_prefix")
     wanted = space().rpartition("/")[0] if wanted in (None, "", "auto") else str(wanted)

@@ -15,7 +15,10 @@ THEMES = ("dark", "light")
 
 def has_panel():
     """Whether the panel was built; rviz would show an error in its place."""
-    return places.prefix() is not None and any(places.prefix().glob("lib/**/libmonarch_flight_panel.so"))
+    if places.prefix() is None:
+        return False
+    library = places.prefix() / "lib"
+    return any((folder / "libmonarch_flight_panel.so").is_file() for folder in (library, *library.glob("*-linux-gnu")))
 
 
 def sections(part):

@@ -186,9 +186,9 @@ void Coordinator::commit(const Evaluation& last, CommittedStep& out) {
   to_fluid.want_flow = due(out.step, pictures.fields_every);
   PerWing<Reply> air = askAir(to_fluid, out);
   for (Side side : kSides) {
-    out.surface[side] = std::move(air[side].surface);
-    out.picture[side] = std::move(air[side].picture);
-    out.flow[side] = std::move(air[side].flow);
+    if (to_fluid.want_surface) out.surface[side] = std::move(air[side].surface);
+    if (to_fluid.block_points > 0) out.picture[side] = std::move(air[side].picture);
+    if (to_fluid.want_flow) out.flow[side] = std::move(air[side].flow);
   }
   ask(Role::kFlight, request, out);
   ask(Role::kWing, request, out);

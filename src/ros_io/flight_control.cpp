@@ -58,7 +58,7 @@ FlightControl::FlightControl(const ros::NodeHandle& node, const RunNames& names,
                node_.advertiseService("checkpoint", &FlightControl::onCheckpointAsked, this),
                node_.advertiseService("reset", &FlightControl::onResetAsked, this)};
   spinner_.start();
-  if (paused)
+  if (parameters.paused)
     std::cout << "held at the start: call the service " << node_.resolveName("resume") << " or "
               << node_.resolveName("step") << " to fly" << std::endl;
 }

@@ -51,7 +51,7 @@ FlowView::FlowView()
       q_level_(parameter("q_level", 0.04, isQLevel, "above 0")),
       slice_at_(parameter("slice_at", 0.5, isShare, "in [0, 1]")) {
   if (!hasIsoSurfaces())
-    ROS_WARN("this build has no VTK: no vortices are shown (scripts/install view, build again)");
+    ROS_WARN("this build has no VTK: no vortices are shown (scripts/install panel, build again)");
   // Whoever comes sees the newest picture at once.
   const auto offer = [this](const char* topic, void (FlowView::*show)()) {
     const auto changed = [this, show](const ros::SingleSubscriberPublisher&) {

@@ -214,6 +214,8 @@ std::string problem(const FlowBlock& block) {
   const bool fits =
       n > 0 && n <= kLargestBlock && block.q_root.size() == n && block.vorticity.size() == n;
   if (!fits) return "a block of the flow whose fields do not fit its size";
+  if (*std::min_element(block.size.begin(), block.size.end()) < 2)
+    return "a block of the flow with fewer than 2 points along an axis";
   const std::array<float, 4> numbers{block.origin.x, block.origin.y, block.origin.z, block.step};
   const bool good = allFinite(numbers) && std::isfinite(block.spacing) && block.spacing > 0.0f &&
                     block.step >= 0.0f;

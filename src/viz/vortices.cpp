@@ -64,6 +64,7 @@ visualization_msgs::Marker vortexMarker(const IsoSurface& surface, Side side, bo
   for (std::uint32_t n = 0; n < surface.points.size(); ++n) corners.push_back(corner(n));
   for (const auto& t : surface.triangles)
     addTriangle(out, corners[t[0]], corners[t[1]], corners[t[2]]);
+  if (out.points.empty()) out.action = visualization_msgs::Marker::DELETE;
   return out;
 }
 
@@ -72,7 +73,9 @@ visualization_msgs::Marker sliceMarker(const FlowPicture& picture, Side side, bo
   visualization_msgs::Marker out = ofWing("slice", side, stamp);
   const auto [nx, ny, nz] = picture.size;
   const double place = (at - double(picture.origin[1])) / double(picture.spacing);
+  out.action = visualization_msgs::Marker::DELETE;
   if (picture.empty() || place < 0.0 || place > double(ny - 1)) return out;
+  out.action = visualization_msgs::Marker::ADD;
   const auto j = std::min<std::size_t>(static_cast<std::size_t>(place), ny - 2);
   const double share = place - double(j);
   const auto corner = [&, nx = nx, ny = ny](std::uint32_t i, std::uint32_t k) -> Corner {

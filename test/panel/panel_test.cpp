@@ -62,11 +62,11 @@ TEST_F(Panel, LeadsAFlight) {
   ros::param::set("/monarch_flight/rate", 0.05);  // else it would be over before it is paused
   startLongFlight();
   press("pause");
-  EXPECT_TRUE(message().startsWith("held behind step ")) << message().toStdString();
+  EXPECT_TRUE(message().startsWith("held after step ")) << message().toStdString();
   find<QSpinBox>("steps")->setValue(7);
   const int before = message().section(' ', 3, 3).remove(',').toInt();
   press("step");
-  EXPECT_EQ(QString("held behind step %1").arg(before + 7), message());
+  EXPECT_EQ(QString("held after step %1").arg(before + 7), message());
   auto* numbers = find<QLabel>("numbers");
   EXPECT_TRUE(until([&] {
     return numbers->text().contains(QString("step %1 of").arg(before + 7));
@@ -76,9 +76,9 @@ TEST_F(Panel, LeadsAFlight) {
   press("checkpoint");
   EXPECT_TRUE(message().startsWith("checkpoint of step ")) << message().toStdString();
   press("reset");
-  EXPECT_EQ("held behind step 0", message());
+  EXPECT_EQ("held after step 0", message());
   press("resume");
-  EXPECT_TRUE(message().startsWith("flying behind step ")) << message().toStdString();
+  EXPECT_TRUE(message().startsWith("flying after step ")) << message().toStdString();
   EXPECT_FALSE(find<QPushButton>("all_zero")->isEnabled());  // nobody leads this flight
 }
 

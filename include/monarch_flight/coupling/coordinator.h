@@ -51,7 +51,7 @@ class Coordinator {
   /// Never throws for a failed run: participants get ABORT, sinks get onEnd(failure), and the
   /// outcome says why. With a `keeper`, checkpoints are made of the steps that it names, of the
   /// last one, and of the last committed one when the run is stopped or a step fails; a resumed run
-  /// goes on behind the keeper's step, bit for bit as if it had never ended.
+  /// goes on after the keeper's step, bit for bit as if it had never ended.
   CoupledOutcome run(const std::vector<StepSink*>& sinks, RunControl& control,
                      Keeper* keeper = nullptr);
 

@@ -52,7 +52,7 @@ FluidReport together(const FluidReport& a, const FluidReport& b);
 /// at rest far away: the motions it is given are relative to the wind (relativeTo,
 /// prescribed_motion.h). `evaluate` is a pure function of (committed state, motion): it may be
 /// called any number of times with different or equal motions and changes nothing that a later
-/// evaluate could see.
+/// evaluate could see (but for parts of a first step, docs/fluid.md).
 class FluidModel {
  public:
   virtual ~FluidModel() = default;

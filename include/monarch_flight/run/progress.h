@@ -14,7 +14,7 @@ class ProgressSink : public StepSink {
  public:
   /// `out` must outlive the sink; `terminal` says whether a line can be redrawn on it.
   ProgressSink(std::ostream& out, bool terminal, const TimeGrid& time);
-  /// Of a run that goes on behind a step.
+  /// Of a run that goes on after a step.
   void resumeAt(std::uint32_t step) { first_ = step; }
   void onStep(const CommittedStep& step) override;
   void onReset() override;

@@ -129,6 +129,8 @@ class Flight:
         elif kind == "std_msgs/String" and name == "case":
             self.case = yaml.safe_load(message.data)
         elif name in ("pressure", "flow"):
+            if name == "flow":  # as arrays: lists of numbers take ten times the memory
+                message.q_root, message.vorticity = np.int16(message.q_root), np.int16(message.vorticity)
             wing = topic.split("/")[-2]
             getattr(self, name).setdefault(wing, Series()).add(t, message)
 
@@ -143,13 +145,6 @@ class Flight:
         return 1.0 / frequency if frequency else None
 
     @property
-    def softened(self):
-        """Each number with half of it from its neighbours along each axis: the numbers of a grid make lumps."""
-        out = object.__new__(Block)
-        out.__dict__.update(self.__dict__)
-        out.q_root, out.omega = softened(self.q_root, self.size), softened(self.omega, self.size)
-        return out
-
     def mirrored(self):
         return "left_wing" not in self.pressure and "left_wing" not in self.flow
 

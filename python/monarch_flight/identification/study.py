@@ -15,7 +15,7 @@ from monarch_flight.identification import measured
 from monarch_flight.keys import Refused
 
 KEYS = ("name", "case", "set", "unknown", "measured", "compare", "difference", "stages")
-QUIET = dict(record=False, checkpoint_every=0, surface_every=0, vortices_every=0, fields_every=0)
+QUIET = dict(record=False, checkpoint_every=0, surface_every=0, flow_every=0, fields_every=0)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 
+REFUSED = 2  # exit code of a node
 LAST_WORD = 3.0  # s, for a coordinator whose nodes have gone before it
 
 
@@ -50,6 +51,7 @@ class Facts(roslaunch.pmon.ProcessListener):
     def __init__(self, number, stays):
         self.file, self.needed, self.pm, self.code = os.fdopen(number, "w", encoding="utf-8"), {"master"}, None, 0
         self.stays, self.over, self.rviz = stays, False, set()  # names
+        self.flown = True  # not refused by the coordinator
 
     def tell(self, **fact):
         try:
@@ -63,10 +65,15 @@ class Facts(roslaunch.pmon.ProcessListener):
             if name in self.rviz or name == "master":
                 self.pm.shutdown()
             return
-        self.tell(ended=name, exit_code=exit_code, needed=name in self.needed)
+        self.ended(name, exit_code)
         if name in self.needed:
             self.last_word(process_name)
-            self.end(exit_code)
+            self.end(exit_code, stays=name != "master")
+
+    def ended(self, name, exit_code):
+        self.tell(ended=name, exit_code=exit_code, needed=name in self.needed)
+        if name.endswith("coordinator"):
+            self.flown = exit_code != REFUSED
 
     def last_word(self, ended):
         """Tells how the coordinator ends, which knows what became of the run, where another node has `ended` before
@@ -78,12 +85,12 @@ class Facts(roslaunch.pmon.ProcessListener):
             while process is not None and process.is_alive() and time.monotonic() < deadline:
                 time.sleep(0.05)
             if process is not None and process.exit_code is not None:
-                self.tell(ended=role, exit_code=process.exit_code, needed=True)
+                self.ended(role, process.exit_code)
 
-    def end(self, exit_code):
+    def end(self, exit_code, stays=True):
         self.code = 1 if exit_code else self.code
         watched = [name for name in self.pm.get_active_names() if name.rpartition("-")[0] in self.rviz]
-        if not (self.stays and watched):
+        if not (stays and self.stays and watched and self.flown):
             self.pm.shutdown()
             return
         self.over = True
@@ -104,7 +111,7 @@ class Facts(roslaunch.pmon.ProcessListener):
         seen = {name.rpartition("-")[0] for name, _ in alive + ended} | {"master"}
         for name in sorted(self.needed - seen) if not self.pm.is_shutdown else ():
             self.tell(ended=name, exit_code=None, needed=True)
-            self.end(1)
+            self.end(1, stays=False)
 
 
 class Launcher(roslaunch.parent.ROSLaunchParent):

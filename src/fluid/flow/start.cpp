@@ -1,17 +1,20 @@
 // How a flow is made and set going.
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "fluid/fields/projection.h"
 #include "fluid/flow/flow.h"
 #include "fluid/loads/wing_loads.h"
+#include "monarch_flight/math/errors.h"
 #include "monarch_flight/math/rotation.h"
 
 namespace monarch_flight::fluid {
 namespace {
 
 constexpr long kStartSteps = 10;      // in which a start at once is felt
+constexpr int kMostParts = 100;       // of a step
 constexpr double kEasyCourant = 1.0;  // of their parts
 constexpr double kMostGrowth = 2.0;   // of lengths, from one part to the next; BDF2 bears 2.4
 
@@ -98,7 +101,7 @@ void NavierStokes::setLevelBefore(const Eigen::Vector3d& V_dot, const Eigen::Vec
 /// step's first evaluation has it, so that all evaluations of the step share them.
 void NavierStokes::easeIn(const WingMotion& next) {
   if (known_) return;  // nothing was set in motion
-  for (;;) {
+  for (int parts = 0;; ++parts) {
     double part = length_before_ > 0 ? kMostGrowth * length_before_ : length_;
     if (steps_ < kStartSteps) {
       convectingField(level_n_.grid);
@@ -106,6 +109,11 @@ void NavierStokes::easeIn(const WingMotion& next) {
       if (cells > kEasyCourant) part = std::min(part, length_ * kEasyCourant / cells);
     }
     if (part >= length_) return;
+    if (parts == kMostParts)
+      throw NumericalError("Navier-Stokes: step " + std::to_string(steps_ + 1) +
+                           " is not done in " + std::to_string(kMostParts) +
+                           " parts, the start is too fast for this grid: use more steps a flap, a "
+                           "coarser grid, or let the motion set in gradually");
     takePart(std::min(part, 0.5 * length_), next);
   }
 }
@@ -117,11 +125,12 @@ void NavierStokes::takePart(double part, const WingMotion& next) {
   struct Rest {  // also where the part fails
     double& length;
     long& steps;
+    momentum::MomentumStep& step;
     const double left = length;
     const long done = steps;
     double taken = 0;
-    ~Rest() { length = left - taken, steps = done; }
-  } rest{length_, steps_};
+    ~Rest() { length = left - taken, steps = done, step = {}; }
+  } rest{length_, steps_, step_};
   length_ = part;
   if (length_before_ == 0) setLevelBefore((n.V - m.V) / rest.left, (n.omega - m.omega) / rest.left);
   WingMotion wing;
