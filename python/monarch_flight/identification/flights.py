@@ -89,6 +89,8 @@ class Flights:
             raise KeyboardInterrupt
         if code == REFUSED:
             raise Unflown("\n".join(words[-8:]))
+        if code not in (0, 1):  # an accident, as no memory: it says nothing of these values
+            raise Unflown(f"{signal_of(code) or f'exit code {code}'}: " + " ".join(words[-2:]))
         if code:
             why = f"{signal_of(code) or f'exit code {code}'}: " + " ".join(words[-2:])
             self.put(name + ".failed", why)
