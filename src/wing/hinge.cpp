@@ -1,12 +1,15 @@
 #include "monarch_flight/wing/hinge.h"
 
 #include <cmath>
+#include <string>
+
+#include "monarch_flight/math/errors.h"
 
 namespace monarch_flight {
 namespace {
 
 constexpr int kNewton = 50;        // steps at most; five are usual
-constexpr double kSolved = 1e-13;  // relative change of theta'' at which they end
+constexpr double kSolved = 1e-13;  // of the torques at hand: where they end
 
 }  // namespace
 
@@ -48,15 +51,21 @@ Coordinate Hinge::step(const Newmark& newmark, const Coordinate& n, double inert
   Coordinate next = newmark.advance(n, (moment + spring) / (inertia + linear));
   if (!additions_.any()) return next;
   for (int i = 0; i < kNewton; ++i) {
-    const double residual = inertia * next.qdd - moment - torque(next.q, next.qd, rest_angle);
+    const double spring_and_more = torque(next.q, next.qd, rest_angle);
+    const double residual = inertia * next.qdd - moment - spring_and_more;
     const double slope = inertia +
                          stiffness(next.q, rest_angle) * newmark.beta * newmark.dt * newmark.dt +
                          additions_.damping * newmark.gamma * newmark.dt;
     const double change = residual / slope;
     next = newmark.advance(n, next.qdd - change);
-    if (std::abs(change) <= kSolved * std::abs(next.qdd)) break;
+    const double size = std::abs(inertia * next.qdd) + std::abs(moment) + std::abs(spring_and_more);
+    if (inertia * std::abs(change) <= kSolved * size) return next;
   }
-  return next;
+  throw NumericalError(
+      "wing: the step of the hinge with its additions (insect/wing/hinge_additions) has no "
+      "solution "
+      "within " +
+      std::to_string(kNewton) + " of Newton's steps; take shorter time steps or softer stops");
 }
 
 }  // namespace monarch_flight

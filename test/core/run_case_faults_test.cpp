@@ -83,16 +83,17 @@ TEST_F(CaseTest, PrescribedFlapsThatAreNone) {
 TEST_F(CaseTest, FilesAndNames) {
   expectHas(faults("nope"),
             "one of climb, climb_controlled, climb_fwuav, climb_printed, climb_settled, "
-            "climb_standard, "
-            "climb_trimmed, climb_turning, hinge, measured_motion, passive_pitch, plate_re100, "
-            "tethered_fwuav");
+            "climb_standard, climb_trimmed, climb_turning, cruise_bumblebee, hinge, "
+            "hover_fruit_fly, hover_hawkmoth, measured_motion, passive_pitch, "
+            "passive_pitch_identified, plate_re100, tethered_fwuav");
   expectHas(faults("/nonexistent/case.yaml"), "/nonexistent/case.yaml does not exist");
   expectHas(faults(write("syntax.yaml", "a: [1\n")), "is not YAML");
   expectHas(faults(write("list.yaml", "[1, 2]\n")), "holds no keys");
   expectHas(faultsWith("climb_printed", "preset: monarch_paper", "preset: bee"),
             "insect/preset = 'bee'");
-  expectHas(faultsWith("climb_printed", "series: monarch", "series: bee"),
-            "bee_kinematics.yaml does not exist; there are monarch");
+  expectHas(
+      faultsWith("climb_printed", "series: monarch", "series: bee"),
+      "bee_kinematics.yaml does not exist; there are bumblebee, fruit_fly, hawkmoth, monarch");
   expectHas(faultsWith("hinge", "whitney_wood_wing.csv", "absent.csv"),
             "absent.csv: cannot be read");
   EXPECT_EQ(faultsWith("hinge", "mass: 6.0e-7", "mass: 7.0e-7"), "");

@@ -58,7 +58,7 @@ TEST_F(OutputSize, OfABagIsEstimatedWithinAFactorOfTwo) {
   expectBag(
       loadCase("climb_printed", {{"fluid", "navier_stokes"}, {"grid", "preview"}, {"flaps", "0.6"}},
                CONFIG_DIR),
-      1654728, "preview");
+      4186848, "preview");
 }
 
 /// What is in the folder already needs no room; the bag is copied.

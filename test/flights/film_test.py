@@ -37,14 +37,14 @@ class Film(flying.FlightTest):
             self.skipTest("python3-vtk9, xvfb or ffmpeg is not installed (scripts/install film)")
         for name in ("film.mp4", "film.gif"):
             film = self.out(name)
-            done = subprocess.run([flying.MONARCH, "film", folder, film, "size:=160x90", "slow:=100", "fps:=20"],
+            done = subprocess.run([flying.MONARCH, "film", folder, film, "size:=160x120", "slow:=100", "fps:=20"],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=200)
             self.assertEqual(done.returncode, 0, done.stdout)
             told = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
                                    "stream=width,height,nb_read_frames", "-of", "json", film],
                                   capture_output=True, text=True, check=True).stdout
             stream = json.loads(told)["streams"][0]
-            self.assertEqual((160, 90), (stream["width"], stream["height"]))
+            self.assertEqual((160, 120), (stream["width"], stream["height"]))
             # 0.02 flaps, a hundred times slower, 20 frames a second.
             self.assertAlmostEqual(float(stream["nb_read_frames"]), 0.02 / self.frequency(folder) * 100 * 20, delta=1)
             self.assertGreater(len(self.colours(film)), 300)  # more than ground and words

@@ -193,7 +193,7 @@ class Faults(Folder):
             self.assertIn(part, text)
 
     def test_measured(self):
-        self.assertIn("series = moth: there is none of this name; known are monarch", self.faults(measured=dict(angle="theta_R", series="moth")))
+        self.assertIn("series = moth: there is none of this name; known are bumblebee, fruit_fly, hawkmoth, monarch", self.faults(measured=dict(angle="theta_R", series="moth")))
         self.assertIn("series = monarch: has no yaw_deg", self.faults(measured=dict(angle="yaw", series="monarch")))
         self.assertIn("has columns t, theta_R_deg: must have t [s] and phi", self.faults(measured=dict(angle="phi", file="measured.csv")))
         self.assertIn("nowhere.csv cannot be read", self.faults(measured=dict(angle="phi", file="nowhere.csv")))
