@@ -11,6 +11,7 @@
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/ros_io/guidance_conversions.h"
 #include "monarch_flight/run/config_directory.h"
+#include "monarch_flight/run/progress.h"
 #include "panel/view_buttons.h"
 
 namespace monarch_flight {

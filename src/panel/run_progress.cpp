@@ -1,8 +1,5 @@
 #include "panel/run_progress.h"
 
-#include <cmath>
-#include <cstdio>
-
 namespace monarch_flight {
 namespace {
 
@@ -58,16 +55,6 @@ std::optional<double> RunProgress::left() const {
   const std::optional<double> factor = realTimeFactor();
   if (!factor || *factor <= 0.0 || time_.steps < step()) return std::nullopt;
   return (time_.steps - step()) * time_.dt / *factor;
-}
-
-std::string clockText(double seconds) {
-  const long s = std::lround(seconds);
-  char text[48];
-  if (s >= 3600)
-    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
-  else
-    std::snprintf(text, sizeof text, "%ld:%02ld", s / 60, s % 60);
-  return text;
 }
 
 }  // namespace monarch_flight

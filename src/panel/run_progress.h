@@ -47,7 +47,4 @@ class RunProgress {
   std::deque<Step> steps_;  // of the last seconds
 };
 
-/// 75 as "1:15".
-std::string clockText(double seconds);
-
 }  // namespace monarch_flight

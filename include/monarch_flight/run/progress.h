@@ -8,6 +8,9 @@
 
 namespace monarch_flight {
 
+/// Seconds as h:mm:ss or m:ss.
+std::string clockText(double seconds);
+
 /// Shows flap, step, sub-iterations, time left and flight time over wall time: one line redrawn on
 /// a terminal (at most ten times a second), else a plain line after every tenth of the run.
 class ProgressSink : public StepSink {

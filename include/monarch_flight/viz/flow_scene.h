@@ -26,7 +26,6 @@ class FlowScene {
   /// Vortices are where Q exceeds `level` (U / c)^2: U is the reference speed of the pressure
   /// coefficient (pressureReference), c the mean chord. Precondition: > 0.
   void setQLevel(double level);
-  double qLevel() const { return q_level_; }
 
   bool hasPressure() const { return static_cast<bool>(pressure_stamp_.right); }
   bool hasFlow() const { return static_cast<bool>(flow_stamp_.right); }

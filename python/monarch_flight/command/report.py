@@ -5,10 +5,9 @@ import pathlib
 
 from monarch_flight import keys, places, preparing
 from monarch_flight.keys import Key, Table
+from monarch_flight.report import MOST, NAME
 
 SECTIONS = ("fly", "report")
-NAME = "report.html"
-MOST = 6
 KEYS = Table([Key("out", "path", "file of the page", default=f"{NAME} in the folder of the first run")])
 
 

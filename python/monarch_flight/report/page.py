@@ -15,7 +15,6 @@ from monarch_flight.report.model import ANGLES, Model
 
 LIBRARIES = "/usr/share/javascript"  # of Debian's packages libjs-three and libjs-chart.js
 SCRIPTS = ("three/three.min.js", "three/examples/js/controls/OrbitControls.js", "chart.js/chart.min.js")
-MOST = 6  # runs in a page
 
 
 class Lacking(Refused):

@@ -1,8 +1,7 @@
 """The page of a flight that has ended (monarch report). Whatever becomes of it, the flight is what it is."""
 from monarch_flight.keys import Refused
+from monarch_flight.report import NAME
 from monarch_flight.telling import say
-
-NAME = "report.html"
 
 
 def wanted(request):

@@ -12,8 +12,9 @@ namespace {
 constexpr int kBar = 20;
 constexpr std::chrono::milliseconds kRedraw{100};
 
-// Seconds as h:mm:ss or m:ss.
-std::string clock(double seconds) {
+}  // namespace
+
+std::string clockText(double seconds) {
   const long s = std::lround(seconds);
   char text[48];
   if (s >= 3600)
@@ -22,8 +23,6 @@ std::string clock(double seconds) {
     std::snprintf(text, sizeof text, "%ld:%02ld", s / 60, s % 60);
   return text;
 }
-
-}  // namespace
 
 ProgressSink::ProgressSink(std::ostream& out, bool terminal, const TimeGrid& time)
     : out_(out), terminal_(terminal), time_(time), begin_(std::chrono::steady_clock::now()) {}
@@ -74,7 +73,7 @@ std::string ProgressSink::line(const CommittedStep& step) const {
   std::snprintf(rest, sizeof rest, "step %u/%u  sub-iterations %zu  left ", step.step, time_.steps,
                 step.iterations.size());
   const double flown = step.step - first_, left = time_.steps - step.step;
-  text += rest + clock(elapsed * left / std::max(flown, 1.0));
+  text += rest + clockText(elapsed * left / std::max(flown, 1.0));
   std::snprintf(rest, sizeof rest, "  %.2g of real time",
                 flown * time_.dt / std::max(elapsed, 1e-9));
   return text + rest;
