@@ -38,19 +38,19 @@ void frictionLoads(const Grid& grid, const Layout& l, const momentum::Metrics& m
     const std::ptrdiff_t s = c == 0 ? 1 : l.nx;
     for (int j = c == 1; j < l.ny; ++j) {
       for (int i = c == 0; i < l.nx; ++i) {
-        const double b = metrics.blockedRow(c, j)[i];
-        if (b == 0) continue;
+        if (metrics.rim.cut(c, 0, j)[i] == 0) continue;
         const double x = c == 0 ? grid.x.face[i] : grid.x.centre[i];
         const double y = c == 1 ? grid.y.face[j] : grid.y.centre[j];
         const double gap = own.gap[c == 0 ? i : j];
-        const double area = b * gap * (c == 0 ? grid.y.width[j] : grid.x.width[i]);
+        const double area = gap * (c == 0 ? grid.y.width[j] : grid.x.width[i]);
         const double u_wall = wall.at(c, x, y);
         double df = 0;
         for (int k = std::max(kw - 1, l.k0); k <= std::min(kw, l.k1 - 1); ++k) {
           const double* q = phi + (k - l.k0) * pz + static_cast<std::ptrdiff_t>(j) * l.nx + i;
           const double u =
               v.c[c][l.at(i, j, k)] - grid.mobility.at(c, i, j, k) * scale / gap * (q[0] - q[-s]);
-          df += mu * (u - u_wall) / (0.5 * grid.z.width[k]) * area;
+          const double seen = metrics.rim.wall(c, k - kw + 1, j)[i];
+          df += mu * (u - u_wall) / (0.5 * grid.z.width[k]) * seen * area;
         }
         f[c] += df;
         mz += c == 0 ? -y * df : x * df;

@@ -40,18 +40,18 @@ void eliminatePlain(const FaceStencil& stencil, const ZRow& row, int i0, int i1)
   }
 }
 
-/// The same beside the wing: `blocked` of the link ahead goes to the wall, whose velocity changes
-/// by change(i); inertia is 1 / mobility.
+/// The same beside the wing: the share `cut` of the link ahead goes, and `seen` of the wall, whose
+/// velocity changes by change(i), is linked to; inertia is 1 / mobility.
 template <int T, class Change>
-void eliminateBeside(const FaceStencil& stencil, const ZRow& r, int i0, int i1,
-                     const double* blocked, const double* mobility, const WallLinks& links,
+void eliminateBeside(const FaceStencil& stencil, const ZRow& r, int i0, int i1, const double* seen,
+                     const double* cut, const double* mobility, const WallLinks& links,
                      Change change) {
   for (int i = i0; i <= i1; ++i) {
     double near, far;
     offDiagonals<T>(stencil, r, i, near, far);
-    const double m = mobility ? mobility[i] : 1.0, wall = m * blocked[i] * links.wall;
+    const double m = mobility ? mobility[i] : 1.0, wall = m * seen[i] * links.wall;
     near *= m;
-    far = m * (far + blocked[i] * links.beyond);
+    far = m * (far + cut[i] * links.beyond);
     const double inv = 1 / (1 - near - far + wall - near * r.gamma_before[i]);
     r.gamma[i] = far * inv;
     r.reduced[i] = (r.side[i] + wall * change(i) - near * r.side_before[i]) * inv;
@@ -109,12 +109,14 @@ void Lines::eliminateRow(const LineRange& range, int j, int k, int towards,
   }
   const double y = m.y(component, j);
   auto change = [&](int i) { return wall_change.at(component, m.x(component, i), y); };
-  const double* blocked = beside_wall ? m.blockedRow(component, j) : m.zero.data() + 8;
+  const double* none = m.zero.data() + 8;
+  const double* seen = beside_wall ? m.rim.wall(component, k - kw + 1, j) : none;
+  const double* cut = beside_wall ? m.rim.cut(component, k - kw + 1, j) : none;
   const WallLinks links = beside_wall ? wallLinks(m, step, component, k) : WallLinks{};
   if (towards > 0)
-    eliminateBeside<1>(stencil, row, range.i0, range.i1, blocked, mobility, links, change);
+    eliminateBeside<1>(stencil, row, range.i0, range.i1, seen, cut, mobility, links, change);
   else
-    eliminateBeside<-1>(stencil, row, range.i0, range.i1, blocked, mobility, links, change);
+    eliminateBeside<-1>(stencil, row, range.i0, range.i1, seen, cut, mobility, links, change);
   if (component != 2 || k != kw) return;
   for (int i = range.i0; i <= range.i1; ++i) {  // the wing's own faces
     if (!m.grid.isWing(i, j)) continue;

@@ -2,7 +2,7 @@
 
 namespace monarch_flight::fluid::momentum {
 
-Metrics::Metrics(const Grid& g, const Layout& l) : grid(g), layout(l) {
+Metrics::Metrics(const Grid& g, const Layout& l) : grid(g), layout(l), rim(g, l) {
   zero.assign(layout.sy, 0.0);
   const Axis* axes[3] = {&grid.x, &grid.y, &grid.z};
   for (int c = 0; c < 3; ++c) {
@@ -17,21 +17,9 @@ Metrics::Metrics(const Grid& g, const Layout& l) : grid(g), layout(l) {
       for (int i = start; i <= n; ++i)
         m.inverse_distance[i] = 1 / (c == d ? along.width[i - 1] : along.gap[i]);
     }
-    blocked[c].assign(layout.sz, 0.0);
     fourth_x[c].assign(layout.sy, 0.0);
     for (int i = 2 + (c == 0); i <= layout.nx - 3; ++i)
       fourth_x[c][i] = axis[c][0].inverse_width[i];
-  }
-  auto wing = [&](int i, int j) {
-    return i >= 0 && j >= 0 && i < layout.nx && j < layout.ny && grid.isWing(i, j) ? 1.0 : 0.0;
-  };
-  for (int j = 0; j <= layout.ny; ++j) {
-    for (int i = 0; i <= layout.nx; ++i) {
-      const std::size_t q = static_cast<std::size_t>((j + 1) * layout.sy + i + 8);
-      blocked[0][q] = 0.5 * (wing(i - 1, j) + wing(i, j));
-      blocked[1][q] = 0.5 * (wing(i, j - 1) + wing(i, j));
-      blocked[2][q] = wing(i, j);
-    }
   }
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "fluid/fields/field.h"
+#include "fluid/momentum/rim_friction.h"
 
 namespace monarch_flight::fluid::momentum {
 
@@ -28,17 +29,13 @@ struct Metrics {
   double y(int component, int j) const {
     return component == 1 ? grid.y.face[j] : grid.y.centre[j];
   }
-  /// Share (0, 1/2, 1) of the z-face below the points (., j, k_wing) that is wing: a row.
-  const double* blockedRow(int component, int j) const {
-    return blocked[component].data() + (j + 1) * layout.sy + 8;
-  }
 
   const Grid& grid;
   const Layout& layout;
   Direction axis[3][3];  ///< [component][direction]
-  Array blocked[3];      ///< per component, one plane
-  Array zero;            ///< a row
-  Array fourth_x[3];     ///< 1 / width where fourth differences along x reach, else 0
+  RimFriction rim;
+  Array zero;         ///< a row
+  Array fourth_x[3];  ///< 1 / width where fourth differences along x reach, else 0
 };
 
 }  // namespace monarch_flight::fluid::momentum

@@ -11,9 +11,9 @@ namespace {
 LineRange seenBy(const Metrics& m, int component, LineRange range) {
   int low = range.i1 + 1, high = range.i0 - 1;
   for (int j = range.first; j <= range.last; ++j) {
-    const double* blocked = m.blockedRow(component, j);
+    const double* wall = m.rim.wall(component, 0, j);
     for (int i = range.i0; i <= range.i1; ++i) {
-      if (blocked[i] > 0) low = std::min(low, i), high = std::max(high, i);
+      if (wall[i] > 0) low = std::min(low, i), high = std::max(high, i);
     }
   }
   range.i0 = std::max(range.i0, low / 8 * 8);

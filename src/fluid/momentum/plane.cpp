@@ -10,8 +10,8 @@ namespace {
 /// formed from the velocities through the faces on the way. All arrays are interleaved.
 template <bool kMobile>
 void eliminateX(const FaceStencil& stencil, const Metrics::Direction& axis, int i0, int i1,
-                const double* sum, const double* mobility, double* __restrict gamma,
-                double* __restrict side) {
+                const double* sum, const double* mobility, const double* extra,
+                double* __restrict gamma, double* __restrict side) {
   constexpr int kPacks = kLines / kPack;
   const double* inv_dist = axis.inverse_distance.data();
   const double* inv_width = axis.inverse_width.data();
@@ -27,9 +27,9 @@ void eliminateX(const FaceStencil& stencil, const Metrics::Direction& axis, int 
       stencil(load(sum + q + kLines), inv_dist[i + 1], above_next, below_next);
       Pack lower = -inv_width[i] * above[p], upper = inv_width[i] * below_next;
       if (kMobile) {
-        const Pack m = load(mobility + q);
-        lower *= m;
-        upper *= m;
+        const Pack m = load(mobility + q), friction = stencil.diffusion * inv_width[i] * m;
+        lower = m * lower - friction * load(extra + q);
+        upper = m * upper - friction * load(extra + q + kLines);
       }
       const Pack inv = 1 / (1 - lower - upper - lower * gamma_before[p]);
       gamma_before[p] = upper * inv;
@@ -91,10 +91,13 @@ void solveRows(const Metrics& m, const FaceStencil& stencil, int component, int 
       std::copy(row, row + l.nx, s.x_mobility.data() + n * l.sy + 8);
     }
     interleave(s.x_mobility.data() + 8, l.sy, lines, i1 + 1, s.lane_mobility.data());
+    interleave(m.rim.extra(component, 0, m.rim.side(component, k), j), l.sy, lines, i1 + 2,
+               s.lane_extra.data());
   }
   (mobile ? eliminateX<true> : eliminateX<false>)(stencil, m.axis[component][0], i0, i1,
                                                   s.lane_sum.data(), s.lane_mobility.data(),
-                                                  s.lane_gamma.data(), s.lane_side.data());
+                                                  s.lane_extra.data(), s.lane_gamma.data(),
+                                                  s.lane_side.data());
   separate(s.lane_side.data(), lines, i1 + 1, rows, l.sy);
   for (int n = 0; n < lines; ++n) {
     double* lower = s.y_lower.data() + n * l.sy + 8;
@@ -152,7 +155,7 @@ void firstFaces(const Metrics& m, const MomentumStep& step, const Velocity& c, i
 
 PlaneScratch::PlaneScratch(const Layout& layout) {
   for (Array* block : {&x_sum, &x_mobility, &y_lower, &y_upper, &lane_sum, &lane_mobility,
-                       &lane_gamma, &lane_side})
+                       &lane_extra, &lane_gamma, &lane_side})
     block->assign(kLines * layout.sy, 0.0);
   for (Array* row : {&y_sum[0], &y_sum[1], &y_above[0], &y_above[1]}) row->assign(layout.sy, 0.0);
   gamma_y.assign(layout.sz, 0.0);

@@ -6,10 +6,10 @@ namespace monarch_flight::fluid::momentum {
 /// What one thread needs to solve the factors along x and y of a plane.
 struct PlaneScratch {
   explicit PlaneScratch(const Layout& layout);
-  Array x_sum, x_mobility, y_lower, y_upper;             ///< kLines rows
-  Array lane_sum, lane_mobility, lane_gamma, lane_side;  ///< the same, interleaved
-  Array y_sum[2], y_above[2];                            ///< rows of faces
-  Array gamma_y;                                         ///< all rows of a plane
+  Array x_sum, x_mobility, y_lower, y_upper;                         ///< kLines rows
+  Array lane_sum, lane_mobility, lane_extra, lane_gamma, lane_side;  ///< the same, interleaved
+  Array y_sum[2], y_above[2];                                        ///< rows of faces
+  Array gamma_y;                                                     ///< all rows of a plane
 };
 
 /// The right sides of plane k of a component, then its factors along x and y solved, kLines rows at

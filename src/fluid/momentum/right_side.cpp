@@ -108,12 +108,45 @@ void form(int component, const Row& r, const FaceStencil& stencil, double* d,
 void addWallShear(const Metrics& m, const WallLinks& links, const WallVelocity& wall, int component,
                   int j, bool above, const double* v, double* d) {
   const double* beyond = above ? v - m.layout.sz : v + m.layout.sz;
-  const double* blocked = m.blockedRow(component, j);
+  const double* seen = m.rim.wall(component, above, j);
+  const double* cut = m.rim.cut(component, above, j);
   const double y = m.y(component, j);
   for (int i = m.first(component, 0), end = m.last(component, 0); i <= end; ++i) {
-    if (blocked[i] == 0) continue;
-    d[i] += blocked[i] * (links.wall * (wall.at(component, m.x(component, i), y) - v[i]) -
-                          links.beyond * (beyond[i] - v[i]));
+    if (cut[i] == 0) continue;
+    d[i] += seen[i] * links.wall * (wall.at(component, m.x(component, i), y) - v[i]) -
+            cut[i] * links.beyond * (beyond[i] - v[i]);
+  }
+}
+
+/// Beside the rim: what the friction within the plane is more than by differences.
+void addRimFriction(const Metrics& m, const MomentumStep& step, int component, int j, int k,
+                    const double* v, double* d) {
+  const int side = m.rim.side(component, k);
+  const std::ptrdiff_t sy = m.layout.sy;
+  const Metrics::Direction* axis = m.axis[component];
+  const double friction = step.a * step.nu, friction_y = friction * axis[1].inverse_width[j];
+  const double* x = m.rim.extra(component, 0, side, j);
+  const double* y0 = m.rim.extra(component, 1, side, j);
+  const double* y1 = m.rim.extra(component, 1, side, j + 1);
+  const double* width = axis[0].inverse_width.data();
+  const int i0 = m.first(component, 0), i1 = m.last(component, 0);
+#pragma omp simd
+  for (int i = i0; i <= i1; ++i) {
+    d[i] += friction * width[i] * (x[i + 1] * (v[i + 1] - v[i]) + x[i] * (v[i - 1] - v[i])) +
+            friction_y * (y1[i] * (v[i + sy] - v[i]) + y0[i] * (v[i - sy] - v[i]));
+  }
+}
+
+/// The same in the off-diagonals along y.
+void addRimFactors(const Metrics& m, const MomentumStep& step, int component, int j, int k,
+                   const RowFactors& out) {
+  const int side = m.rim.side(component, k);
+  const double friction_y = step.a * step.nu * m.axis[component][1].inverse_width[j];
+  const double* y0 = m.rim.extra(component, 1, side, j);
+  const double* y1 = m.rim.extra(component, 1, side, j + 1);
+  for (int i = m.first(component, 0); i <= m.last(component, 0); ++i) {
+    out.y_lower[i] -= friction_y * y0[i];
+    out.y_upper[i] -= friction_y * y1[i];
   }
 }
 
@@ -149,6 +182,7 @@ void formFactors(const Metrics& m, const MomentumStep& step, const Velocity& c, 
     stencil(out.y_sum_next[i], inv_dist, out.y_above_next[i], below);
     out.y_upper[i] = inv_width * below;
   }
+  if (m.rim.reaches(component, k)) addRimFactors(m, step, component, j, k, out);
 }
 
 void formRow(const Metrics& m, const MomentumStep& step, const ExplicitSide& side, int component,
@@ -158,6 +192,10 @@ void formRow(const Metrics& m, const MomentumStep& step, const ExplicitSide& sid
   const int kw = m.grid.k_wing;
   if (component != 2 && (k == kw || k == kw - 1)) {
     addWallShear(m, wallLinks(m, step, component, k), side.wall_n, component, j, k == kw, r.v, d);
+  }
+  if (m.rim.reaches(component, k)) {
+    addRimFriction(m, step, component, j, k, r.v, d);
+    addRimFactors(m, step, component, j, k, out);
   }
   if (const double* mobility = m.grid.mobility.row(component, j, k)) {
     for (int i = r.i0; i <= r.i1; ++i)
@@ -178,10 +216,13 @@ void normalTransport(const Metrics& m, const MomentumStep& step, const Velocity&
       const std::ptrdiff_t s = m.layout.stride(d);
       const double* f = c.c[d].data() + at + i;
       const double* u = v.c[2].data() + at + i;
-      const double below =
-          stencil.quarter_a * (f[0] + f[-sz]) + stencil.diffusion * axis.inverse_distance[q];
-      const double above =
-          stencil.quarter_a * (f[s] + f[s - sz]) - stencil.diffusion * axis.inverse_distance[q + 1];
+      const double more0 = d == 2 ? 0 : stencil.diffusion * m.rim.extra(2, d, 0, j)[i];
+      const double more1 =
+          d == 2 ? 0 : stencil.diffusion * m.rim.extra(2, d, 0, j + (d == 1))[i + (d == 0)];
+      const double below = stencil.quarter_a * (f[0] + f[-sz]) +
+                           stencil.diffusion * axis.inverse_distance[q] + more0;
+      const double above = stencil.quarter_a * (f[s] + f[s - sz]) -
+                           stencil.diffusion * axis.inverse_distance[q + 1] - more1;
       out[i] += axis.inverse_width[q] * (above * (u[s] - u[0]) - below * (u[-s] - u[0]));
     }
   }

@@ -5,7 +5,7 @@
 namespace monarch_flight::fluid::momentum {
 
 /// Where the wing lies between two points each of them sees the wall at half a cell instead of the
-/// other: factors of the blocked share.
+/// other: factors of the shares of RimFriction.
 struct WallLinks {
   double wall;    ///< a nu / (half a cell x width), with the wall
   double beyond;  ///< a nu / (distance x width), with the point beyond, which goes
