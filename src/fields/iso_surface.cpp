@@ -34,6 +34,20 @@ std::vector<float> softened(const FlowPicture& picture, const std::vector<std::i
   return values;
 }
 
+/// Fades to 0 at the block's rim, so that a vortex that leaves the block has a closed end.
+std::vector<float> faded(const FlowPicture& picture, std::vector<float> values) {
+  constexpr std::size_t kFade = 2;  // points
+  for (std::size_t at = 0; at < values.size(); ++at) {
+    std::size_t rest = at, inside = kFade;
+    for (std::size_t n : picture.size) {
+      if (n > 4 * kFade) inside = std::min({inside, rest % n, n - 1 - rest % n});
+      rest /= n;
+    }
+    values[at] *= static_cast<float>(inside) / kFade;
+  }
+  return values;
+}
+
 vtkSmartPointer<vtkFloatArray> floats(const char* name, const std::vector<float>& values) {
   auto out = vtkSmartPointer<vtkFloatArray>::New();
   out->SetName(name);
@@ -48,7 +62,8 @@ vtkSmartPointer<vtkImageData> imageOf(const FlowPicture& picture) {
   image->SetDimensions(n(0), n(1), n(2));
   image->SetOrigin(picture.origin[0], picture.origin[1], picture.origin[2]);
   image->SetSpacing(picture.spacing, picture.spacing, picture.spacing);
-  image->GetPointData()->SetScalars(floats("q_root", softened(picture, picture.q_root)));
+  image->GetPointData()->SetScalars(
+      floats("q_root", faded(picture, softened(picture, picture.q_root))));
   image->GetPointData()->AddArray(floats("omega_y", softened(picture, picture.omega_y)));
   return image;
 }

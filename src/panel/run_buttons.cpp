@@ -29,7 +29,12 @@ ServiceAnswer answerOf(const std::string& name, Service service) {
 }  // namespace
 
 RunButtons::RunButtons(QWidget* parent)
-    : QWidget(parent), calls_(this), looks_(this), steps_(new QSpinBox), message_(new QLabel) {
+    : QWidget(parent),
+      calls_(this),
+      pauses_(this),
+      looks_(this),
+      steps_(new QSpinBox),
+      message_(new QLabel) {
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
   all->setSpacing(2);
@@ -52,7 +57,8 @@ RunButtons::RunButtons(QWidget* parent)
   message_->setMinimumHeight(2 * fontMetrics().lineSpacing());  // nothing moves when it comes
   message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   all->addWidget(message_);
-  connect(&calls_, &ServiceCalls::answered, this, &RunButtons::told);
+  for (ServiceCalls* calls : {&calls_, &pauses_})
+    connect(calls, &ServiceCalls::answered, this, &RunButtons::told);
   connect(&looks_, &ServiceCalls::answered, this,
           [this](const QString&, bool, const QString& found) { looked(found); });
   auto* timer = new QTimer(this);
@@ -79,7 +85,8 @@ void RunButtons::setSpace(const std::string& space) {
 }
 
 void RunButtons::call(const QString& service) {
-  if (calls_.start(service.toStdString(), callOf(service.toStdString())))
+  ServiceCalls& calls = service == "pause" ? pauses_ : calls_;
+  if (calls.start(service.toStdString(), callOf(service.toStdString())))
     message_->setText(service + " ...");
   enable();
 }
@@ -132,8 +139,7 @@ void RunButtons::told(const QString& what, bool success, const QString& message)
 void RunButtons::enable() {
   for (QPushButton* button : buttons_) {
     const bool of_player = button->objectName() == "pause" || button->objectName() == "resume";
-    // A run that flies many steps can be paused meanwhile.
-    const bool free = !calls_.busy();
+    const bool free = !(button->objectName() == "pause" ? pauses_ : calls_).busy();
     button->setEnabled(free && (led_ == Led::kRun || (led_ == Led::kReplay && of_player)));
   }
   steps_->setEnabled(led_ == Led::kRun);

@@ -37,7 +37,7 @@ class RunButtons : public QWidget {
 
   std::string space_;
   Led led_ = Led::kNothing;
-  ServiceCalls calls_, looks_;
+  ServiceCalls calls_, pauses_, looks_;  // a run that flies many steps can be paused meanwhile
   std::vector<QPushButton*> buttons_;
   QSpinBox* steps_;
   QLabel* message_;

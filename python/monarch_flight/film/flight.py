@@ -66,6 +66,16 @@ def softened(values, size):
     return out.ravel()
 
 
+def faded(values, size, points=2):
+    """To 0 at the block's rim, so that a vortex that leaves the block has a closed end."""
+    share = np.ones(size[::-1])
+    for axis, n in enumerate(share.shape):
+        if n > 4 * points:
+            inside = np.minimum(np.arange(n), np.arange(n)[::-1]) / points
+            share = np.minimum(share, inside.reshape([n if a == axis else 1 for a in range(3)]))
+    return values * share.ravel()
+
+
 class Block:
     """Vortices around a wing (FlowBlock.msg), in its axes."""
 
@@ -80,7 +90,7 @@ class Block:
         """Each number with half of it from its neighbours along each axis: the numbers of a grid make lumps."""
         out = object.__new__(Block)
         out.__dict__.update(self.__dict__)
-        out.q_root, out.omega = softened(self.q_root, self.size), softened(self.omega, self.size)
+        out.q_root, out.omega = faded(softened(self.q_root, self.size), self.size), softened(self.omega, self.size)
         return out
 
     def mirrored(self):
