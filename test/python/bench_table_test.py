@@ -32,6 +32,12 @@ class Figures(unittest.TestCase):
                      "| `threads_2_speedup_at_2.5M` | 1.5 | >= 1.75, missed |"):
             self.assertIn(line, text)
 
+    def test_of_other_processors_stay(self):
+        text = renewed("before\n" + bench_table.BEGIN + "Processor: another one, 2 cores\n\nits table\n\nProcessor: one of mine, 2 cores\n\n"
+                       "old\n" + bench_table.END + "after\n")
+        self.assertIn("Processor: another one, 2 cores\n\nits table\n\nProcessor: one of mine, - cores", text)
+        self.assertNotIn("old", text)
+
     def test_need_a_place(self):
         with self.assertRaisesRegex(ValueError, "no place for the figures"):
             renewed("nothing\n")

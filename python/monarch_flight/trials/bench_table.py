@@ -47,13 +47,18 @@ def figures(measured):
 
 
 def renew(document, results):
-    """Writes the tables of `results` (bench.json) between the marks of the document."""
+    """Writes the tables of `results` (bench.json) between the marks of the document: in place of those of the same
+    processor, beside those of others."""
     with open(results, encoding="utf-8") as file:
         text = figures(json.load(file))
     with open(document, encoding="utf-8") as file:
         before = file.read()
     if BEGIN not in before or END not in before:
         raise ValueError(f"{document}: has no place for the figures; it needs the lines\n{BEGIN}{END}")
-    after = re.sub(re.escape(BEGIN) + ".*?" + re.escape(END), lambda _: BEGIN + text + END, before, flags=re.S)
+    head, _, rest = before.partition(BEGIN)
+    shown, _, tail = rest.partition(END)
+    ours = text[:text.index(",")]
+    others = [block.rstrip() + "\n" for block in re.split("(?m)^(?=Processor: )", shown)
+              if block.startswith("Processor: ") and not block.startswith(ours + ",")]
     with open(document, "w", encoding="utf-8") as file:
-        file.write(after)
+        file.write(head + BEGIN + "\n".join(others + [text]) + END + tail)
