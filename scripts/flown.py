@@ -10,12 +10,13 @@ import time
 from monarch_flight.runs.master import ask
 
 BEGIN, QUIET, LEAVE, LOOK = 30.0, 5.0, 10.0, 0.2  # s
-NODES = {"coordinator", "fluid", "flight", "wing", "rviz"}
+NODES = {"coordinator", "fluid", "fluid_left", "flight", "wing", "guidance", "rviz"}  # names of flight.launch
 LEADERS = {"coordinator", "rviz"}
+NAME = "__name:="  # roslaunch gives it to each node
 
 
 def siblings():
-    """Names of the programs that the same parent has started and that still run."""
+    """Names of the nodes that the same roslaunch has started and that still run, whatever program each one is."""
     found = set()
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -23,8 +24,9 @@ def siblings():
                 state, parent = file.read().rpartition(")")[2].split()[:2]
             if int(parent) == os.getppid() and state != "Z":
                 with open(f"/proc/{pid}/cmdline", encoding="utf-8", errors="replace") as file:
-                    # The program, or the script behind its interpreter.
-                    found |= {os.path.basename(word) for word in file.read().split("\0")[:2]}
+                    words = file.read().split("\0")
+                found |= {word[len(NAME):] for word in words if word.startswith(NAME)}
+                found |= {"rviz"} & {os.path.basename(words[0])}  # in a launch file of others it has any name
         except (OSError, ValueError):
             continue  # it has just ended
     return found & NODES

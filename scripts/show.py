@@ -56,7 +56,15 @@ def made(given):
     return file
 
 
+def display():
+    """Ends here where rviz has none."""
+    if not os.environ.get("DISPLAY"):
+        sys.exit("show: there is no display (DISPLAY is not set), so no rviz: start it in a terminal of the desktop or by "
+                 "ssh -X, or leave rviz away (rviz:=false). Pictures without a display: monarch film, monarch screenshot")
+
+
 def main(words):
+    display()
     given, others = sorted_out(words)
     if given.get("theme", "dark") not in rviz_config.THEMES:
         sys.exit(f"show: theme:={given['theme']}: must be {' or '.join(rviz_config.THEMES)}")

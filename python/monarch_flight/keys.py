@@ -51,6 +51,11 @@ class Key:
         return f"the name of a {self.type}" if self.type in ("program", "package", "machine") else ""
 
     @property
+    def known(self):
+        """The values that have a name."""
+        return ("true", "false") if self.type == "truth" else self.choices
+
+    @property
     def words(self):
         """Unit and meaning, plain."""
         return (f"[{self.unit}] " if self.unit else "") + self.doc.replace("`", "")
@@ -115,7 +120,8 @@ class Table(dict):
                 if not value:
                     faults.append(f"key '{name}' has no value; give one or leave the key out")
                 elif not self[name].accepts(value):
-                    faults.append(f"{name}:={value}: must be {self[name].allowed}")
+                    key = self[name]
+                    faults.append(f"{name}:={value}: must be {key.allowed}" + nearest(value.lower(), key.known))
         return values, others, faults
 
     def instead(self, name):

@@ -14,6 +14,11 @@ def say(text, who="fly"):
         sys.stdout = sys.stderr = open(os.devnull, "w", encoding="utf-8")
 
 
+def called_as(name):
+    """How the person calls the command, for advice: scripts/fly says who it is."""
+    return os.environ.get("MONARCH_CALLED_AS", "monarch fly") if name == "fly" else f"monarch {name}"
+
+
 def signal_of(code):
     """Name of the signal that ended a program, by its exit code as subprocess or a shell (128 + number) has it; empty
     where it ended by itself."""

@@ -29,7 +29,8 @@ class Launch(flying.FlightTest):
         self.wait_for(lambda: master.answers(self.master), 30, "roscore")
 
     def launched(self, content, **environment):
-        """What roslaunch says of a file; without a core it starts a master of its own."""
+        """What roslaunch says of a file; without a core it starts a master of its own. Not every machine knows its own name."""
+        environment.setdefault("ROS_HOSTNAME", "localhost")
         path = os.path.join(self.folder, "others.launch")
         with open(path, "w", encoding="utf-8") as file:
             file.write(f"<launch>{content}</launch>")
@@ -121,7 +122,7 @@ class Launch(flying.FlightTest):
         before = set(master.ask(self.master, "getParamNames"))
         for name in ("one", "two"):
             case = '<arg name="case" value="%s"/>' % {"one": "climb", "two": "climb_controlled"}[name]
-            output = self.launched(include(FLIGHT, self.out(name), case), ROS_HOSTNAME="localhost")
+            output = self.launched(include(FLIGHT, self.out(name), case))
             self.check(name, output, {"one": "climb", "two": "climb_controlled"}[name])
             left = set(master.ask(self.master, "getParamNames")) - before
             self.assertEqual({one for one in left if not one.startswith("/roslaunch/uris")}, set())

@@ -48,6 +48,7 @@ class SecondShell(flying.FlightTest):
         self.assertEqual(self.finish(process, 90)[0], 0)
         code, output = self.fly(*KEYS, "out:=" + self.out("nobody"))
         self.assertEqual(code, 0, output)
+        self.assertNotIn("\033", output)  # no terminal, no colours
         self.assertNotIn(WORDS, output)
 
 

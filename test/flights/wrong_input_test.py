@@ -14,7 +14,7 @@ class WrongInput(flying.FlightTest):
         """Output of a command that must be refused at once."""
         code, output = self.fly(*arguments, limit=30)
         self.assertEqual(code, 2, output)
-        self.assertIn("monarch fly --help says what is allowed", output)
+        self.assertIn("scripts/fly --help says what is allowed", output)
         self.assertNotIn("build:", output)
         return output
 

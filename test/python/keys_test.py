@@ -53,6 +53,12 @@ class Table(unittest.TestCase):
             self.assertIn(fault, text)
         self.assertEqual(len(faults), 6)
 
+    def test_values_that_are_nearly_right(self):
+        words = ("fluid:=quasisteady", "grid:=Fine", "rviz:=True", "case:=climb", "flaps:=one")
+        _, _, faults = TABLE.of("fly").read(words)
+        self.assertEqual([fault.partition("; ")[2] for fault in faults],
+                         ["did you mean 'quasi_steady'?", "did you mean 'fine'?", "did you mean 'true'?", ""])
+
     def test_words_of_other_programs_and_of_launch_files(self):
         _, _, faults = TABLE.of("fly").read(("flaps=2", "--grid=fine", "watchdog:=3"))
         self.assertIn("did you mean flaps:=2?", faults[0])

@@ -2,9 +2,7 @@
 
 The exit code is 0 only for a complete flight; 1: it failed, 2: it was refused, 130: it was stopped (Ctrl-C,
 SIGTERM, the end of the terminal)."""
-import os
-
-from monarch_flight import keys, preparing
+from monarch_flight import keys, preparing, telling
 from monarch_flight.runs import reporting
 from monarch_flight.runs import request as requests
 from monarch_flight.runs.watched import Stop
@@ -24,11 +22,6 @@ def sections(request):
     return wanted + (["view", "panel"] if request.true("rviz") else [])
 
 
-def called():
-    """How the person calls monarch fly, for advice."""
-    return os.environ.get("MONARCH_CALLED_AS", "monarch fly")
-
-
 def fly(words):
     request = requests.request(words)
     stop = Stop()
@@ -37,7 +30,7 @@ def fly(words):
         if reporting.wanted(request):
             preparing.tried("report")
         from monarch_flight.runs import flight
-        return flight.fly(request, stop, called())
+        return flight.fly(request, stop, telling.called_as("fly"))
     except SystemExit as end:  # of a script that was stopped, too
         raise KeyboardInterrupt if stop.heard else end
     finally:

@@ -79,7 +79,7 @@ def refused(name, refusal):
     for fault in refusal.faults:
         print(f"{name}: {fault}", file=sys.stderr)
     if type(refusal) is keys.Refused:  # its words, not what they name
-        print(f"{name}: monarch {name} --help says what is allowed", file=sys.stderr)
+        print(f"{name}: {telling.called_as(name)} --help says what is allowed", file=sys.stderr)
     return 2
 
 

@@ -1,6 +1,7 @@
 """The environment in which the nodes of a flight are started."""
 import os
 import subprocess
+import sys
 
 from monarch_flight import places
 
@@ -32,9 +33,10 @@ def sourced():
 
 def of_flight(base):
     """BLAS leaves threads to the flow solver; lines that come in order; and a decimal point in every program, whatever the language: rviz
-    would take the person's for the numbers of the URDF."""
+    would take the person's for the numbers of the URDF. Colours of rosconsole are for a terminal."""
+    plain = {} if sys.stdout.isatty() else {"NO_COLOR": "1"}
     return dict(base, PWD=os.getcwd(), LC_ALL="C.UTF-8", PYTHONUNBUFFERED="1",
-                OPENBLAS_NUM_THREADS="1")
+                OPENBLAS_NUM_THREADS="1", **plain)
 
 
 def of_processes(base):

@@ -6,6 +6,7 @@ closed, else ends. Exit code: 0 the needed nodes ended well, 1 one of them did n
 are refused. """
 import json
 import os
+import re
 import signal
 import sys
 import threading
@@ -43,6 +44,20 @@ from monarch_flight.runs.master import ROLES  # noqa: E402
 
 
 RVIZ = "show.py"  # type of its node
+ESCAPES = re.compile(r"\033\[[0-9;]*m|\033\][^\007]*\007\n?")
+
+
+class Plain:
+    """A stream without the escape codes of roslaunch (bold, red, the title of the window)."""
+
+    def __init__(self, stream):
+        self.stream = stream
+
+    def write(self, text):
+        return self.stream.write(ESCAPES.sub("", text))
+
+    def __getattr__(self, name):
+        return getattr(self.stream, name)
 
 
 class Facts(roslaunch.pmon.ProcessListener):
@@ -155,6 +170,7 @@ def launch(facts, port, file, words):
 
 def main(words):
     facts, port, rviz, file, *keys = words
+    sys.stdout, sys.stderr = (one if one.isatty() else Plain(one) for one in (sys.stdout, sys.stderr))
     facts = Facts(int(facts), rviz == "stays")
     if not node_program.good(keys):
         return 2

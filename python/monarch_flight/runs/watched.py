@@ -62,12 +62,15 @@ def send(pids, number):
 
 def end_left(mark, by_hand):
     """Processes that outlived the launcher (it was killed) are asked to end, and have time for a checkpoint."""
-    left = marked(mark)
-    if not left:
-        return
-    if not by_hand:
+    if not by_hand and marked(mark):
         say("the launcher is gone; ending its nodes")
-    send(left, signal.SIGINT)
+    end_all(mark, signal.SIGINT)
+
+
+def end_all(mark, number=signal.SIGTERM):
+    """Ends all processes with this mark: by that signal, and who has not heard it after some time by SIGKILL."""
+    left = marked(mark)
+    send(left, number)
     deadline = time.monotonic() + PATIENCE
     while left and time.monotonic() < deadline:
         time.sleep(0.1)
