@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -196,6 +197,17 @@ TEST(Vortices, AreSurfacesAroundThemWithNormalsOutwards) {
   EXPECT_LE(isoSurface(ball(0.01f), q, 800).triangles.size(), 800u);
   EXPECT_GT(isoSurface(ball(0.01f), q, 800).triangles.size(), 100u);
   EXPECT_NEAR(largestVorticity(ball(0.01f), q), 5.0, 1e-6);
+}
+
+TEST(Vortices, AreClosedWhereTheyLeaveTheBlock) {
+  if (!hasIsoSurfaces()) GTEST_SKIP() << "this build has no VTK";
+  const double q = std::pow(0.01 * 1e5 * 0.035, 2);  // where |r| = 0.025, beyond the block's faces
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> triangles_at;
+  for (const auto& t : isoSurface(ball(0.03f), q, 1000000).triangles) {
+    for (std::size_t i : {0, 1, 2}) ++triangles_at[std::minmax(t[i], t[(i + 1) % 3])];
+  }
+  ASSERT_GT(triangles_at.size(), 1000u);
+  for (const auto& [edge, triangles] : triangles_at) ASSERT_EQ(2, triangles) << edge.first;
 }
 
 TEST(Vortices, OfTheMirroredWingAreTheImage) {
