@@ -85,6 +85,7 @@ class NavierStokes : public FluidModel {
 
   Eigen::Vector3d velocityAt(int i, int j, int k) const;  ///< committed, at the cell's centre
   Eigen::Matrix3d gradientAt(int i, int j, int k) const;
+  double frictionAt(int component, int i, int j, int side) const;
   std::vector<FlowField::WingFace> wingFaces() const;
 
   double* phi() { return phi_.data() + phi_start_; }  ///< of this process's first cell

@@ -71,6 +71,26 @@ SurfacePressure NavierStokes::surfacePressure() const {
   return {gathered(slab_, facets)};
 }
 
+/// Mean over a face of the wing of the friction above (`side` 0) or below it, by the same shares of
+/// the points beside it as in the loads: those on the rim belong to this face alone.
+double NavierStokes::frictionAt(int component, int i, int j, int side) const {
+  const momentum::Metrics& m = momentum_.metrics();
+  const int k = grid_.k_wing - 1 + side;
+  const Axis& own = component == 0 ? grid_.x : grid_.y;
+  const int cell = component == 0 ? i : j;
+  double sum = 0;
+  for (int d : {0, 1}) {
+    const int a = i + (component == 0 ? d : 0), b = j + (component == 1 ? d : 0);
+    const int next = cell + 2 * d - 1;
+    const bool shared = next >= 0 && next < own.n() &&
+                        (component == 0 ? grid_.isWing(next, j) : grid_.isWing(i, next));
+    const double slip = vn_.c[component][layout_.at(a, b, k)] -
+                        level_n_.wall.at(component, m.x(component, a), m.y(component, b));
+    sum += (shared ? 0.5 : 1.0) * m.rim.wall(component, side, b)[a] * own.gap[cell + d] * slip;
+  }
+  return air_.mu * sum / (0.5 * grid_.z.width[k] * own.width[cell]);
+}
+
 std::vector<FlowField::WingFace> NavierStokes::wingFaces() const {
   std::vector<FlowField::WingFace> faces;
   const int kw = grid_.k_wing;
@@ -88,11 +108,9 @@ std::vector<FlowField::WingFace> NavierStokes::wingFaces() const {
                             float(p.above(i, j, air_.rho, a_n)),
                             {0, 0},
                             {0, 0}};
-      const Eigen::Vector3d upper = velocityAt(i, j, kw - 1), lower = velocityAt(i, j, kw);
-      for (int c = 0; c < 2; ++c) {
-        const double wall = level_n_.wall.at(c, x, y);
-        f.friction_upper[c] = float(air_.mu * (upper[c] - wall) / (0.5 * grid_.z.width[kw - 1]));
-        f.friction_lower[c] = float(air_.mu * (lower[c] - wall) / (0.5 * grid_.z.width[kw]));
+      for (int c : {0, 1}) {
+        f.friction_upper[c] = float(frictionAt(c, i, j, 0));
+        f.friction_lower[c] = float(frictionAt(c, i, j, 1));
       }
       faces.push_back(f);
     }
