@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Ends when all flights of its launch are over, and with it roslaunch (flight.launch): no flight ends another one.
 
-Waits while a coordinator, or an rviz, of the same roslaunch lives; other nodes then have some seconds to end.
-Then it takes the parameters of its flight off the master, which may live on."""
+Waits while a coordinator, or an rviz (not of a refused run), of the same roslaunch lives; other nodes then have some
+seconds to end. Then it takes the parameters of its flight off the master, which may live on."""
 import os
 import signal
 import time
@@ -12,6 +12,7 @@ from monarch_flight.runs.master import ask
 BEGIN, QUIET, LEAVE, LOOK = 30.0, 5.0, 10.0, 0.2  # s
 NODES = {"coordinator", "fluid", "fluid_left", "flight", "wing", "guidance", "rviz"}  # names of flight.launch
 LEADERS = {"coordinator", "rviz"}
+REFUSED = 2  # exit code of a node
 NAME = "__name:="  # roslaunch gives it to each node
 
 
@@ -69,6 +70,18 @@ def tidy(may_live):
         ask(master, "deleteParam", "/use_sim_time")  # nobody gives the time any more
 
 
+def refused():
+    """Whether the coordinator has refused the run: then there is nothing that rviz could show."""
+    master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
+    beside = os.environ.get("ROS_NAMESPACE", "").strip("/")
+    return ask(master, "getParam", f"{'/' + beside if beside else ''}/monarch_flight/exit_codes/coordinator") == REFUSED
+
+
+def goes_on():
+    leaders = LEADERS & siblings()
+    return leaders and not (leaders == {"rviz"} and refused())
+
+
 def ended(*_):
     tidy(may_live=True)
     os._exit(0)
@@ -78,7 +91,7 @@ def main():
     signal.signal(signal.SIGINT, ended)
     signal.signal(signal.SIGTERM, ended)
     led = leader_begins()
-    wait_while(lambda: LEADERS & siblings())
+    wait_while(goes_on)
     # A leader that was never seen is on another machine, or was refused: the other nodes end with it.
     wait_while(siblings, LEAVE if led else float("inf"))
     tidy(may_live=False)

@@ -51,6 +51,12 @@ class Siblings(unittest.TestCase):
         process.kill()  # nobody has waited for it yet
         self.wait(set())
 
+    def test_rviz_goes_on_after_a_flight_and_not_after_a_refused_one(self):
+        for nodes, code, expected in (({"rviz"}, 0, True), ({"rviz"}, -1, True), ({"rviz"}, flown.REFUSED, False),
+                                      ({"coordinator", "rviz"}, flown.REFUSED, True), ({"fluid"}, 0, False)):
+            with mock.patch("flown.siblings", return_value=nodes), mock.patch("flown.ask", return_value=code):
+                self.assertEqual(bool(flown.goes_on()), expected, (nodes, code))
+
 
 if __name__ == "__main__":
     unittest.main()
