@@ -51,12 +51,16 @@ def leader_begins():
     return False
 
 
+def place():
+    """The master, and the namespace of the flight with a "/" at both ends."""
+    beside = os.environ.get("ROS_NAMESPACE", "").strip("/")
+    return os.environ.get("ROS_MASTER_URI", "http://localhost:11311"), "/" + beside + "/" if beside else "/"
+
+
 def tidy(may_live):
     """Takes away what flight.launch has set; nothing where another flight has taken the place of this one. `may_live`:
     whether its own coordinator may still be there."""
-    master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
-    beside = os.environ.get("ROS_NAMESPACE", "").strip("/")
-    beside = "/" + beside + "/" if beside else "/"
+    master, beside = place()
     run, coordinator = beside + "monarch_flight", beside + "monarch_flight/coordinator"
     at = ask(master, "lookupNode", coordinator)
     if at and not may_live and ask(at, "getPid") is not None:
@@ -72,9 +76,8 @@ def tidy(may_live):
 
 def refused():
     """Whether the coordinator has refused the run: then there is nothing that rviz could show."""
-    master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
-    beside = os.environ.get("ROS_NAMESPACE", "").strip("/")
-    return ask(master, "getParam", f"{'/' + beside if beside else ''}/monarch_flight/exit_codes/coordinator") == REFUSED
+    master, beside = place()
+    return ask(master, "getParam", beside + "monarch_flight/exit_codes/coordinator") == REFUSED
 
 
 def goes_on():

@@ -71,8 +71,8 @@ SurfacePressure NavierStokes::surfacePressure() const {
   return {gathered(slab_, facets)};
 }
 
-/// Mean over a face of the wing of the friction above (`side` 0) or below it, by the same shares of
-/// the points beside it as in the loads: those on the rim belong to this face alone.
+/// Mean over a face of the wing of the friction on a side (0: plane k_wing - 1), by the same shares
+/// of the points beside it as in the loads: those on the rim belong to this face alone.
 double NavierStokes::frictionAt(int component, int i, int j, int side) const {
   const momentum::Metrics& m = momentum_.metrics();
   const int k = grid_.k_wing - 1 + side;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 namespace monarch_flight::fluid::momentum {
-
 namespace {
 
 /// The singular solution gives 2.25 / sqrt(aspect) for the face beside the rim alone. Those above

@@ -9,15 +9,16 @@ namespace monarch_flight::fluid::momentum {
 /// Within a cell of a sharp edge every flow is slow. There it goes as sqrt(r) (Stokes' equations
 /// round a half-plane), its friction as 1 / sqrt(r), and central differences miss its mean over a
 /// face beside the rim by fixed factors: a plate acts as if it were 0.2 to 0.3 cells smaller all
-/// round, an error of first order in all loads. The factors are exact ratios of the singular
-/// solutions, functions of the cell's aspect (height by width) alone.
+/// round, an error of first order in all loads. The factors are functions of the cell's aspect
+/// (height by width) alone: exact ratios of the singular solutions, and for flow round the edge one
+/// number that stands for the faces farther away, too.
 class RimFriction {
  public:
   RimFriction(const Grid& grid, const Layout& layout);
 
-  /// Of the points (., j) of u or v (`component` 0, 1) below (`side` 0) or above the wing: the
-  /// share of their face in the wing's plane that feels the wall, by a difference over half a cell;
-  /// about 1 inside the outline, 0 outside.
+  /// Of the points (., j) of u or v (`component` 0, 1) in plane k_wing - 1 (`side` 0) or k_wing:
+  /// the share of their face in the wing's plane that feels the wall, by a difference over half a
+  /// cell; about 1 inside the outline, 0 outside.
   const double* wall(int component, int side, int j) const {
     return row(wall_[component][side], j);
   }
@@ -35,8 +36,8 @@ class RimFriction {
   }
   int side(int component, int k) const { return component == 2 ? 0 : k - k_wing_ + 1; }
 
-  /// Mean friction by difference quotient in the singular solutions. Flow round the edge: of its
-  /// velocity normal to the wing, between the last point on the wing and the first one outside.
+  /// Mean friction by difference quotient. Flow round the edge: of its velocity normal to the wing,
+  /// between the last point on the wing and the first one outside.
   static double roundEdge(double aspect);
   /// Flow along the wing, across its edge: of the point above the edge with the wall.
   static double overEdge(double aspect);
