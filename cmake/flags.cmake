@@ -7,6 +7,8 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_UNITY_BUILD ${MONARCH_UNITY})  # of libraries: most of a file's compile time goes into headers that all of them need
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 10)
 add_compile_options(-Wall -Wextra -Wpedantic -Wfloat-conversion -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 calls its own AVX-512 intrinsics uninitialised wherever Eigen inlines them (GCC bug 105593).

@@ -9,6 +9,7 @@ function(monarch_proof name)
   target_link_libraries(monarch_${name} PRIVATE monarch_run nlohmann_json::nlohmann_json)
 endfunction()
 
+set(CMAKE_UNITY_BUILD OFF)  # here and in the tests: their files may use the same names
 # The flow solver (monarch verify).
 file(GLOB verify_sources CONFIGURE_DEPENDS bench/verify/*.cpp)
 monarch_proof(verify ${verify_sources})

@@ -2,12 +2,11 @@
 #include <string>
 #include <vector>
 
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/trim/control_design.h"
 #include "monarch_flight/trim/controlled_flight.h"
 
 namespace monarch_flight {
-
-inline constexpr double kDegree = M_PI / 180.0;
 
 /// The insect, its law, and what the law is asked to hold.
 struct Subject {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "insect/smooth_spline.h"
+#include "monarch_flight/math/angle.h"
 
 namespace monarch_flight {
 namespace {

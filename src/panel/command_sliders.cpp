@@ -5,11 +5,12 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "monarch_flight/math/angle.h"
+
 namespace monarch_flight {
 namespace {
 
-constexpr int kSteps = 100;  // of a slider, to each side
-constexpr double kDegrees = 180.0 / M_PI;
+constexpr int kSliderSteps = 100;  // of a slider, to each side
 
 /// Who leads, in words.
 QString leaderText(const Case& c) {
@@ -84,7 +85,7 @@ void CommandSliders::addRow(std::size_t index, const CommandLimits& limits) {
   auto* name = new QLabel(QString(info.name).replace('_', ' '));
   name->setText(name->text().replace("differential", "diff."));
   auto* slider = new QSlider(Qt::Horizontal);
-  slider->setRange(-kSteps, kSteps);
+  slider->setRange(-kSliderSteps, kSliderSteps);
   slider->setMinimumWidth(60);
   slider->setObjectName(info.name);
   auto* number = new QLabel;
@@ -108,7 +109,7 @@ void CommandSliders::addRow(std::size_t index, const CommandLimits& limits) {
 
 /// Zero is in the middle, whatever the bounds are.
 double CommandSliders::valueOf(const Row& row) const {
-  const double share = static_cast<double>(row.slider->value()) / kSteps;
+  const double share = static_cast<double>(row.slider->value()) / kSliderSteps;
   return share < 0.0 ? -share * row.limits.low : share * row.limits.high;
 }
 
@@ -116,13 +117,14 @@ void CommandSliders::place(const Row& row, double value) {
   const double bound = value < 0.0 ? row.limits.low : row.limits.high;
   const double share = bound != 0.0 ? std::clamp(value / bound, 0.0, 1.0) : 0.0;
   placing_ = true;
-  row.slider->setValue(static_cast<int>(std::lround((value < 0.0 ? -share : share) * kSteps)));
+  row.slider->setValue(
+      static_cast<int>(std::lround((value < 0.0 ? -share : share) * kSliderSteps)));
   placing_ = false;
   showNumber(row, value);
 }
 
 void CommandSliders::showNumber(const Row& row, double value) {
-  const QString text = row.angle ? QString::number(kDegrees * value, 'f', 1) + QChar(0xb0)
+  const QString text = row.angle ? QString::number(value / kDegree, 'f', 1) + QChar(0xb0)
                                  : QString::number(100.0 * value, 'f', 0) + " %";
   if (row.number->text() != text) row.number->setText(text);
 }

@@ -71,7 +71,7 @@ geometry_msgs::Vector3Stamped wind(const Wind& met, const ros::Time& stamp) {
 }
 
 // In the wing's true axes.
-geometry_msgs::WrenchStamped wrench(const PerWing<Loads>& all, bool left, const ros::Time& stamp) {
+geometry_msgs::WrenchStamped wingWrench(const PerWing<Loads>& all, bool left, const ros::Time& stamp) {
   const Loads loads = left ? mirrored(all.left) : all.right;
   geometry_msgs::WrenchStamped out;
   out.header.stamp = stamp;
@@ -198,8 +198,8 @@ std::vector<StampedMessage> FlightMessages::of(const CommittedStep& step) {
   out.push_back({topics::kState, stamp, flightState(step, stamp)});
   out.push_back({topics::kOdometry, stamp, odometry(step.interface.body, stamp)});
   out.push_back({topics::kWind, stamp, wind(step.guided.wind, stamp)});
-  out.push_back({topics::kRightWrench, stamp, wrench(step.loads, false, stamp)});
-  if (!bare) out.push_back({topics::kLeftWrench, stamp, wrench(step.loads, true, stamp)});
+  out.push_back({topics::kRightWrench, stamp, wingWrench(step.loads, false, stamp)});
+  if (!bare) out.push_back({topics::kLeftWrench, stamp, wingWrench(step.loads, true, stamp)});
   out.push_back({topics::kIterations, stamp, stepIterations(step, stamp)});
   if (growPath(step, stamp)) out.push_back({topics::kPath, stamp, path_, true});
   if (step.step % diagnostics_stride_ == 0 || step.retried()) {

@@ -10,7 +10,7 @@ namespace monarch_flight {
 namespace {
 
 // Longest uninterrupted wait: an interrupt or a deadline is noticed within it.
-const ros::WallDuration kSlice(0.1);
+const ros::WallDuration kListening(0.1);
 
 // Requests of a run come in this order.
 std::tuple<std::uint32_t, std::uint32_t, std::uint8_t, std::uint32_t> order(
@@ -62,7 +62,7 @@ void LockstepServer::serve() {
   if (!refusal_.empty()) refuse();
   last_heard_ = ros::SteadyTime::now();
   while (!ended_) {
-    queue_.callAvailable(kSlice);
+    queue_.callAvailable(kListening);
     if (ended_) break;
     seekCoordinator();
     if (!ros::ok() || graceIsOver()) throw ExchangeError("interrupted");
@@ -92,7 +92,7 @@ void LockstepServer::letCoordinatorLeave() {
   // files.
   const ros::SteadyTime deadline = ros::SteadyTime::now() + ros::WallDuration(limits_.exchange_s);
   while (coordinatorListens() && !graceIsOver() && ros::ok() && ros::SteadyTime::now() < deadline) {
-    queue_.callAvailable(kSlice);
+    queue_.callAvailable(kListening);
   }
 }
 
@@ -103,7 +103,7 @@ void LockstepServer::waitForCoordinator() {
                        "the coordinator");
   while (!coordinatorListens()) {
     coordinator.refuse();
-    queue_.callAvailable(kSlice);
+    queue_.callAvailable(kListening);
     seekCoordinator();
     if (!refusal_.empty()) refuse();
     if (stop_ || !ros::ok()) throw ExchangeError("interrupted while waiting for the coordinator");

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kRandomBytes = 32, kFewest = 16, kMost = 4096;
 constexpr char kOfOneRun[] = "of one run: ";  // what a coordinator has made begins with it
-const ros::WallDuration kPatience(30.0), kLook(0.02);
+const ros::WallDuration kOwnerPatience(30.0), kPause(0.02);
 constexpr int kLooks = 25;  // at a file that another process may hold for a moment, to look at it
 
 std::string text(const RunNames& names, const char* key) {
@@ -138,7 +138,7 @@ bool replaced(const Descriptor& old, const std::string& path, const NewFile& mad
   for (int look = 0; ::flock(old.number(), LOCK_EX | LOCK_NB) != 0; ++look) {
     if (look == kLooks)
       refuse(path, "is the token of another run, which goes on; name another file, or none");
-    kLook.sleep();
+    kPause.sleep();
   }
   if (!named(old, path)) return false;
   if (std::rename(made.name.c_str(), path.c_str()) != 0) cannotBeMade(path);
@@ -188,7 +188,7 @@ void TokenFile::remove() noexcept {
 Token tokenOfRun(const RunNames& names, const StopFlag& stop) {
   const std::string path = pathOf(names);
   if (path.empty()) return Token();
-  const ros::WallTime end = ros::WallTime::now() + kPatience;
+  const ros::WallTime end = ros::WallTime::now() + kOwnerPatience;
   EarlyEnd coordinator(names.space(), "coordinator", "the coordinator");
   while (!stop && ros::WallTime::now() < end) {
     const Descriptor file = opened(path);
@@ -197,7 +197,7 @@ Token tokenOfRun(const RunNames& names, const StopFlag& stop) {
       if (!madeByACoordinator(secret) || held(file)) return Token(secret);
     }
     coordinator.refuse();
-    kLook.sleep();
+    kPause.sleep();
   }
   if (stop) throw InputError("interrupted while waiting for the token of the run");
   refuse(path,

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "monarch_flight/flight/multibody_dynamics.h"
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/output_file.h"
 
@@ -129,7 +130,6 @@ void printBody(const std::vector<RequiredLoads>& rows, bool mirrored, std::ostre
 }
 
 void printHinge(const HingeFit& fit, const Wing& wing, const char* of, std::ostream& out) {
-  const double kDegrees = 180.0 / M_PI;
   char text[700];
   std::snprintf(
       text, sizeof text,
@@ -138,9 +138,9 @@ void printHinge(const HingeFit& fit, const Wing& wing, const char* of, std::ostr
       "  nearest spring and damper: kappa %.3g N m/rad, theta_0 %.1f deg, damping %.3g N m s/rad: "
       "explains %.0f %%\n"
       "  the case has               kappa %.3g N m/rad, theta_0 %.1f deg\n",
-      of, fit.torque_rms, fit.power, fit.spring_kappa, fit.spring_theta_0 * kDegrees,
-      100.0 * fit.spring_share, fit.kappa, fit.theta_0 * kDegrees, fit.damping,
-      100.0 * fit.damped_share, wing.kappa, wing.theta_0 * kDegrees);
+      of, fit.torque_rms, fit.power, fit.spring_kappa, fit.spring_theta_0 / kDegree,
+      100.0 * fit.spring_share, fit.kappa, fit.theta_0 / kDegree, fit.damping,
+      100.0 * fit.damped_share, wing.kappa, wing.theta_0 / kDegree);
   out << text;
 }
 

@@ -8,9 +8,9 @@
 namespace monarch_flight {
 namespace {
 
-YAML::Node list(const std::vector<double>& values, double unit) {
+YAML::Node sequence(const std::vector<double>& values, double unit) {
   YAML::Node node(YAML::NodeType::Sequence);
-  for (double value : values) node.push_back(case_file::exactText(value * unit));
+  for (double value : values) node.push_back(case_file::exactText(value / unit));
   node.SetStyle(YAML::EmitterStyle::Flow);
   return node;
 }
@@ -74,14 +74,14 @@ void CaseEdit::set(const Path& path, const std::string& value) {
 }
 
 void CaseEdit::setVector(const Path& path, const Eigen::Vector3d& value) {
-  parent(path)[path.back()] = list({value.x(), value.y(), value.z()}, 1.0);
+  parent(path)[path.back()] = sequence({value.x(), value.y(), value.z()}, 1.0);
 }
 
 void CaseEdit::setSeries(const Path& path, const FourierSeries& series, double unit) {
   YAML::Node node(YAML::NodeType::Map);
-  node["A0"] = case_file::exactText(series.a0 * unit);
-  node["AN"] = list(series.an, unit);
-  node["BN"] = list(series.bn, unit);
+  node["A0"] = case_file::exactText(series.a0 / unit);
+  node["AN"] = sequence(series.an, unit);
+  node["BN"] = sequence(series.bn, unit);
   node["multiple"] = std::to_string(series.multiple);
   parent(path)[path.back()] = node;
 }

@@ -21,7 +21,7 @@ class CaseEdit {
   void set(const Path& path, double value);
   void set(const Path& path, const std::string& value);
   void setVector(const Path& path, const Eigen::Vector3d& value);
-  /// A0, AN, BN, multiple, each coefficient times `unit`.
+  /// A0, AN, BN, multiple, each coefficient in this unit.
   void setSeries(const Path& path, const FourierSeries& series, double unit);
   /// An empty section where there is none.
   void open(const Path& path);

@@ -5,13 +5,13 @@
 #include <fstream>
 #include <ostream>
 
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/output_file.h"
 
 namespace monarch_flight {
 namespace {
 
-constexpr double kDegrees = 180.0 / M_PI;
 constexpr int kShortRunIn = 10;  // steps, the paper's start, where the air has no memory
 
 std::size_t size(const Case& c, const TrimOptions& options) {
@@ -66,11 +66,11 @@ void printFlight(std::ostream& out, const Flight& flight) {
   for (const Flap& flap : flight.flaps) {
     const FlapState change = (flap.end - flap.start).cwiseQuotient(trimScales());
     char line[160];
-    std::snprintf(
-        line, sizeof line, "%4d  %9.2f  %9.3f  %12.2f %6.2f %8.2f  %22.2f  %8.2f  %6.3g\n",
-        ++number, flap.climb * kDegrees, flap.speed, flap.theta_B_mean * kDegrees,
-        flap.theta_B_swing * kDegrees, flap.theta_B_largest * kDegrees,
-        flap.theta_R_swing * kDegrees, flap.turn * kDegrees, change.cwiseAbs().maxCoeff());
+    std::snprintf(line, sizeof line,
+                  "%4d  %9.2f  %9.3f  %12.2f %6.2f %8.2f  %22.2f  %8.2f  %6.3g\n", ++number,
+                  flap.climb / kDegree, flap.speed, flap.theta_B_mean / kDegree,
+                  flap.theta_B_swing / kDegree, flap.theta_B_largest / kDegree,
+                  flap.theta_R_swing / kDegree, flap.turn / kDegree, change.cwiseAbs().maxCoeff());
     out << line;
   }
   if (!flight.complete) out << "the flight ended: " << flight.failure << '\n';

@@ -5,13 +5,13 @@
 #include <set>
 #include <sstream>
 
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/trim/command.h"
 
 namespace monarch_flight {
 namespace {
 
-constexpr double kRadians = M_PI / 180.0;
 const char kKnown[] =
     "case, fluid, grid, wings, steps_per_flap, fit, climb, speed, pitch, swing, horizon, start, "
     "run_in, "
@@ -123,10 +123,10 @@ std::vector<TrimTarget> targets(Arguments& arguments) {
     if (!arguments.has(key)) return;
     all.push_back({kind, arguments.number(key, low, high, 0.0) * unit, tolerance});
   };
-  add(TrimTarget::kClimb, kRadians, 2.0 * kRadians, -90.0, 90.0);
+  add(TrimTarget::kClimb, kDegree, 2.0 * kDegree, -90.0, 90.0);
   add(TrimTarget::kSpeed, 1.0, 0.1, 0.0, 100.0);
-  add(TrimTarget::kPitch, kRadians, 2.0 * kRadians, -180.0, 180.0);
-  add(TrimTarget::kSwing, kRadians, 3.0 * kRadians, 0.0, 360.0);
+  add(TrimTarget::kPitch, kDegree, 2.0 * kDegree, -180.0, 180.0);
+  add(TrimTarget::kSwing, kDegree, 3.0 * kDegree, 0.0, 360.0);
   return all;
 }
 
@@ -187,14 +187,13 @@ std::optional<ControlOptions> control(Arguments& arguments) {
   if (arguments.has("inputs")) options.inputs = inputList(arguments, "inputs", 0, kAlikeCommands);
   if (arguments.has("lateral_inputs"))
     options.lateral_inputs = inputList(arguments, "lateral_inputs", kAlikeCommands, kCommands);
-  if (arguments.has("turn")) options.turn = kRadians * arguments.number("turn", 1e-3, 360.0, 5.0);
+  if (arguments.has("turn")) options.turn = kDegree * arguments.number("turn", 1e-3, 360.0, 5.0);
   options.lateral_asked = arguments.has("lateral_inputs") || arguments.has("turn");
   options.time_constant = arguments.number("time_constant", 1e-3, 10.0, options.time_constant);
   if (arguments.has("speed")) options.speed = arguments.number("speed", 1e-3, 100.0, 1.0);
-  if (arguments.has("climb"))
-    options.climb = kRadians * arguments.number("climb", -89.0, 89.0, 0.0);
+  if (arguments.has("climb")) options.climb = kDegree * arguments.number("climb", -89.0, 89.0, 0.0);
   options.speeds = numberList(arguments, "speeds", 1e-3, 100.0, 1.0);
-  options.climbs = numberList(arguments, "climbs", -89.0, 89.0, kRadians);
+  options.climbs = numberList(arguments, "climbs", -89.0, 89.0, kDegree);
   for (const char* key : {"fit", "pitch", "swing", "horizon", "start", "run_in", "jacobian"}) {
     if (arguments.has(key))
       arguments.faults.push_back(std::string(key) +

@@ -4,20 +4,15 @@
 #include <cstdio>
 #include <sstream>
 
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/trim/control_design.h"
 #include "run/case/reader.h"
+#include "trim/number_text.h"
 
 namespace monarch_flight {
 namespace {
 
 using Eigen::Index;
-constexpr double kDegree = M_PI / 180.0;
-
-std::string number(double value, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
 
 std::string list(const std::vector<double>& values, double unit) {
   std::string text;

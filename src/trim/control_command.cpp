@@ -2,6 +2,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/run/output_file.h"
 #include "monarch_flight/trim/command.h"
 #include "monarch_flight/trim/controlled_flight.h"
@@ -9,8 +10,6 @@
 
 namespace monarch_flight {
 namespace {
-
-constexpr double kDegrees = 180.0 / M_PI;
 
 void printDesign(std::ostream& out, const ControlDesign& design) {
   const auto line = [&](const char* what, const std::vector<std::complex<double>>& all) {
@@ -38,14 +37,14 @@ void printControlled(std::ostream& out, const ControlDesign& design,
   for (const ControlledFlap& flap : flight.flaps) {
     char line[160];
     std::snprintf(line, sizeof line, "%4d  %9.2f  %9.3f  %12.2f %8.2f %8.2f  ", ++number,
-                  flap.climb * kDegrees, flap.speed, flap.theta_B_mean * kDegrees,
-                  flap.theta_B_low * kDegrees, flap.theta_B_high * kDegrees);
+                  flap.climb / kDegree, flap.speed, flap.theta_B_mean / kDegree,
+                  flap.theta_B_low / kDegree, flap.theta_B_high / kDegree);
     out << line;
     std::vector<std::size_t> inputs = design.settings.gains.inputs;
     if (const auto& lateral = design.settings.lateral) {
       inputs.insert(inputs.end(), lateral->gains.inputs.begin(), lateral->gains.inputs.end());
-      std::snprintf(line, sizeof line, "turn %.2f deg, roll %.2f to %.2f deg", flap.turn * kDegrees,
-                    flap.roll_low * kDegrees, flap.roll_high * kDegrees);
+      std::snprintf(line, sizeof line, "turn %.2f deg, roll %.2f to %.2f deg", flap.turn / kDegree,
+                    flap.roll_low / kDegree, flap.roll_high / kDegree);
       out << line;
     }
     for (std::size_t input : inputs) {

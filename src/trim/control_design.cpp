@@ -5,6 +5,7 @@
 #include <map>
 #include <ostream>
 
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/trim/trim.h"
 #include "trim/control_gains.h"
@@ -14,7 +15,6 @@ namespace monarch_flight {
 namespace {
 
 using Eigen::Index;
-constexpr double kDegree = M_PI / 180.0;
 
 /// Trims over a rectangle of speeds and climb angles, grown from the set point outwards.
 class TableSearch {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/trim/control_design.h"
 #include "monarch_flight/trim/trim.h"
@@ -130,7 +131,6 @@ NewtonSettings searchSettings(const ControlOptions& options, const Unknowns& unk
 }  // namespace
 
 double commandScale(std::size_t command) {
-  constexpr double kDegree = M_PI / 180.0;
   switch (command) {
     case kAmplitudeCommand:
     case kFrequencyCommand:

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "monarch_flight/insect/start_motion.h"
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/trim/periodic_shape.h"
@@ -178,14 +179,13 @@ std::string FlapMap::caseText(const TrimPoint& point, int run_in_steps, int flap
     velocity.z() = s(1) - rateAt(point.shape.z, f, t0);
   }
   edit.setVector({"motion", "body", "velocity"}, velocity);
-  constexpr double kDegrees = 180.0 / M_PI;
   if (base_.free[kPitch]) {
     edit.setSeries({"motion", "theta_B_deg"}, through(point.shape.theta_B, f, t0, s(2), s(3)),
-                   kDegrees);
+                   kDegree);
   }
   if (base_.free[kThetaR]) {
     edit.setSeries({"motion", "theta_R_deg"}, through(point.shape.theta_R, f, t0, s(4), s(5)),
-                   kDegrees);
+                   kDegree);
   }
   if (base_.mirrored || inPlane(s)) {
     edit.remove({"initial"});

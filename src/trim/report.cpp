@@ -5,26 +5,20 @@
 #include <ostream>
 #include <sstream>
 
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/trim/trim.h"
 #include "trim/case_edit.h"
+#include "trim/number_text.h"
 
 namespace monarch_flight {
 namespace {
 
-constexpr double kDegrees = 180.0 / M_PI;
-
-std::string number(double value, int digits = 6) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
-
 std::string targetText(const TrimTarget& target, const std::vector<Flap>& flaps) {
   const bool angle = target.kind != TrimTarget::kSpeed;
-  const double unit = angle ? kDegrees : 1.0;
+  const double unit = angle ? kDegree : 1.0;
   std::string reached;
-  for (const Flap& flap : flaps) reached += ' ' + number(target.of(flap) * unit, 4);
-  return std::string(TrimTarget::name(target.kind)) + " " + number(target.value * unit, 4) +
+  for (const Flap& flap : flaps) reached += ' ' + number(target.of(flap) / unit, 4);
+  return std::string(TrimTarget::name(target.kind)) + " " + number(target.value / unit, 4) +
          (angle ? " deg" : " m/s") + " (reached" + reached + ")";
 }
 
@@ -60,7 +54,7 @@ void printModes(std::ostream& out, const FlapMap& map, const TrimResult& result)
         << number(std::abs(mode.multiplier.imag()), 4) << "i :";
     for (const auto& component : mode.mode) {
       out << "  " << number(std::abs(component), 2) << '@'
-          << std::lround(std::arg(component) * kDegrees);
+          << std::lround(std::arg(component) / kDegree);
     }
     out << '\n';
   }
@@ -89,13 +83,13 @@ void printTrim(std::ostream& out, const FlapMap& map, const TrimOptions& options
         << " (range " << number(p.low) << " to " << number(p.high) << ")\n";
   }
   out << "  fitted to       " << targetsText(options, result) << '\n';
-  out << "  climb angle     " << number(flap.climb * kDegrees, 4) << " deg\n  speed           "
+  out << "  climb angle     " << number(flap.climb / kDegree, 4) << " deg\n  speed           "
       << number(flap.speed, 4) << " m/s\n  body pitch      mean "
-      << number(flap.theta_B_mean * kDegrees, 4) << ", swing "
-      << number(flap.theta_B_swing * kDegrees, 4) << " deg\n  wing pitch      swing "
-      << number(flap.theta_R_swing * kDegrees, 4) << " deg\n";
+      << number(flap.theta_B_mean / kDegree, 4) << ", swing "
+      << number(flap.theta_B_swing / kDegree, 4) << " deg\n  wing pitch      swing "
+      << number(flap.theta_R_swing / kDegree, 4) << " deg\n";
   if (map.baseCase().free[kYaw])
-    out << "  turn            " << number(flap.turn * kDegrees, 4) << " deg a flap\n";
+    out << "  turn            " << number(flap.turn / kDegree, 4) << " deg a flap\n";
   printModes(out, map, result);
 }
 

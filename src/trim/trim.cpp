@@ -9,6 +9,7 @@
 #include <mutex>
 #include <ostream>
 
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/math/seconds_since.h"
 
@@ -17,8 +18,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr double kDegrees = 180.0 / M_PI;
 
 /// Between dimensionless unknowns and points, and the residual at them.
 class Search {
@@ -123,9 +122,9 @@ void logIteration(std::ostream& log, const NewtonResult& r, const std::vector<Fl
   if (r.residual.targets.size() > 0) log << ", targets " << r.residual.targets.norm();
   log << "; evaluations " << r.evaluations;
   for (const Flap& flap : flaps) {
-    log << (flaps.size() > 1 ? ";\n  climb " : "; climb ") << flap.climb * kDegrees << " deg, "
-        << flap.speed << " m/s, theta_B mean " << flap.theta_B_mean * kDegrees << " swing "
-        << flap.theta_B_swing * kDegrees << " deg";
+    log << (flaps.size() > 1 ? ";\n  climb " : "; climb ") << flap.climb / kDegree << " deg, "
+        << flap.speed << " m/s, theta_B mean " << flap.theta_B_mean / kDegree << " swing "
+        << flap.theta_B_swing / kDegree << " deg";
   }
   log << std::endl;
 }

@@ -4,6 +4,15 @@
 
 namespace monarch_flight {
 
+std_msgs::ColorRGBA colour(float r, float g, float b, float a) {
+  std_msgs::ColorRGBA out;
+  out.r = r;
+  out.g = g;
+  out.b = b;
+  out.a = a;
+  return out;
+}
+
 visualization_msgs::Marker triangleList(const std::string& frame, const std::string& group, int id,
                                         const ros::Time& stamp) {
   visualization_msgs::Marker out;

@@ -8,6 +8,8 @@
 
 namespace monarch_flight {
 
+std_msgs::ColorRGBA colour(float r, float g, float b, float a = 1.0f);
+
 /// An empty list of triangles in the axes of `frame`.
 visualization_msgs::Marker triangleList(const std::string& frame, const std::string& group, int id,
                                         const ros::Time& stamp);

@@ -8,6 +8,7 @@
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/viz/frames.h"
 #include "monarch_flight/viz/mesh.h"
+#include "viz/marker.h"
 
 namespace monarch_flight {
 namespace {
@@ -84,15 +85,6 @@ void writeFile(const std::filesystem::path& path, const std::string& bytes) {
   file << bytes;
   file.close();
   if (!file) throw InputError("cannot write " + path.string() + ": is there space and permission?");
-}
-
-std_msgs::ColorRGBA colour(float r, float g, float b) {
-  std_msgs::ColorRGBA out;
-  out.r = r;
-  out.g = g;
-  out.b = b;
-  out.a = 1.0f;
-  return out;
 }
 
 std::string material(const char* name, const std_msgs::ColorRGBA& c) {

@@ -12,15 +12,6 @@ namespace {
 using Eigen::Vector2d;
 using Line = std::vector<Vector2d>;
 
-std_msgs::ColorRGBA colour(float r, float g, float b, float a = 1.0f) {
-  std_msgs::ColorRGBA out;
-  out.r = r;
-  out.g = g;
-  out.b = b;
-  out.a = a;
-  return out;
-}
-
 /// The pen: what it draws lies on the wing or, `lift` [m] off its plane, on both of its sides.
 class Pen {
  public:

@@ -5,12 +5,12 @@
 #include "fluid/quasi_steady/coefficients.h"
 #include "fluid/quasi_steady/strips.h"
 #include "monarch_flight/fluid/quasi_steady.h"
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 
 namespace monarch_flight::fluid::quasi_steady {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kStrips = 64;
 
 // Motion of the wing through the air, wing axes: velocity of the root,

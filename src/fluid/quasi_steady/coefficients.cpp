@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "monarch_flight/math/angle.h"
+
 namespace monarch_flight::fluid::quasi_steady {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegree = kPi / 180.0;
 // The fitted lift is 0.027 at 0 and 0.101 at 90 degrees, where symmetry demands 0 and where its
 // side changes: it is led to 0 linearly over this angle, for a step in the loads would have no
 // fixed point.

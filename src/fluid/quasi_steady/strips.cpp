@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "monarch_flight/math/angle.h"
+
 namespace monarch_flight::fluid::quasi_steady {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Rule {
   Eigen::VectorXd node, weight;  // on [-1, 1]

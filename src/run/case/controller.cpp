@@ -4,11 +4,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "monarch_flight/math/angle.h"
+
 namespace monarch_flight::case_file {
 namespace {
 
 using Eigen::Index;
-constexpr double kDegree = M_PI / 180.0;
 
 /// The commands that a law may have as its inputs.
 struct Choice {
@@ -63,11 +64,6 @@ Eigen::MatrixXd matrix(Section& section, const std::string& key, std::size_t col
 Eigen::VectorXd vector(Section& section, const std::string& key) {
   const std::vector<double> values = section.numbers(key, "");
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
-}
-
-std::vector<double> inRadians(std::vector<double> degrees) {
-  for (double& value : degrees) value *= kDegree;
-  return degrees;
 }
 
 TrimTable readTable(Section section, std::size_t inputs, std::size_t states) {

@@ -2,18 +2,12 @@
 
 #include "monarch_flight/insect/fourier_motion.h"
 #include "monarch_flight/insect/table_motion.h"
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 #include "run/case/parts.h"
 
 namespace monarch_flight::case_file {
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
-
-std::vector<double> inRadians(std::vector<double> degrees) {
-  for (double& value : degrees) value *= kDegree;
-  return degrees;
-}
 
 /// The map A0, AN, BN, multiple of a key, coefficients in `unit`.
 FourierSeries readHarmonics(Section& motion, const std::string& key, const std::string& unit,

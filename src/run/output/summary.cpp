@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "monarch_flight/fluid/instruction_set.h"
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/seconds_since.h"
 #include "monarch_flight/run/pressure_reference.h"
 #include "monarch_flight/run/remarks.h"
@@ -12,15 +13,13 @@
 namespace monarch_flight {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-constexpr double kTumbled = 60.0 / kDegrees;  // pitch of the body [rad]
+constexpr double kTumbled = 60.0 * kDegree;  // pitch of the body [rad]
 
 using Json = nlohmann::ordered_json;
 
 Json degrees(const Range& range) {
-  return {{"min", range.min * kDegrees},
-          {"mean", range.mean() * kDegrees},
-          {"max", range.max * kDegrees}};
+  return {
+      {"min", range.min / kDegree}, {"mean", range.mean() / kDegree}, {"max", range.max / kDegree}};
 }
 
 Json matrix(const Matrix6d& M) {
@@ -124,7 +123,7 @@ Eigen::Vector3d Summary::meanVelocity() const {
 
 double Summary::climbAngleDegrees() const {
   const Eigen::Vector3d v = meanVelocity();
-  return std::atan2(0.0 - v.z(), std::hypot(v.x(), v.y())) * kDegrees;
+  return std::atan2(0.0 - v.z(), std::hypot(v.x(), v.y())) / kDegree;
 }
 
 const Range& Summary::subIterations() const { return solved_.count ? solved_ : all_; }
