@@ -77,7 +77,8 @@ int nodeMain(const std::string& name, int argc, char** argv, const std::function
     startOnLoopback();
     if (alone && name == "coordinator")
       std::cout << "nodes can be reached from this machine only; for several machines set "
-                   "ROS_HOSTNAME or ROS_IP on each"
+                   "ROS_HOSTNAME or ROS_IP on each before anything of ROS starts there "
+                   "(docs/usage.md, another machine)"
                 << std::endl;
     try {
       return body();

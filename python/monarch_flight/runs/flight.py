@@ -11,6 +11,7 @@ from monarch_flight.runs.ending import REFUSED, Ending
 from monarch_flight.telling import FAILED, STOPPED, passed_on, say
 
 PYTHON = "/usr/bin/python3"  # which has the ROS modules
+LOCAL = ("", "localhost", "127.0.0.1")
 
 
 def now():
@@ -29,6 +30,13 @@ def in_process(request):
     return command, base
 
 
+def own_master(base):
+    """Says who sees a flight on a master of its own, and the remedy."""
+    unused = [f"{name}={base[name]}" for name in ("ROS_HOSTNAME", "ROS_IP") if base.get(name, "localhost") not in LOCAL]
+    return ("fly: the flight has a master of its own and is seen from this machine only; for other machines: docs/usage.md, "
+            "another machine" + (" (" + ", ".join(unused) + " is for a master that runs already)" if unused else ""))
+
+
 class Nodes:
     """The command that starts them, on the person's master or on one of its own."""
 
@@ -41,6 +49,7 @@ class Nodes:
         else:
             if uri:
                 print(f"fly: ROS_MASTER_URI={uri} does not answer; starting an own master")
+            print(own_master(base))
             self.port = master.free_port()
             self.environment = dict(base, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost")
             self.environment.pop("ROS_IP", None)
