@@ -119,6 +119,13 @@ class Launch(flying.FlightTest):
         return subprocess.run(["bash", "-c", line, flying.BUILD, self.master, *words], env=environment, text=True, timeout=60,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
 
+    def test_a_fault_of_the_case_is_told_once(self):
+        """Before a node is started, so that the exit code of roslaunch tells it, too."""
+        done = self.roslaunch("monarch_flight", "flight.launch", "fluid:=quasi_steady", "flaps:=-1", "out:=" + self.out())
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertEqual(done.stdout.count("time/flaps = -1: must be > 0"), 1, done.stdout)
+        self.assertNotIn("process[", done.stdout)
+
     def test_what_shows_something_is_refused_without_a_display(self):
         """At once, for roslaunch ends with 0 when rviz does not start; the arguments can be listed all the same."""
         for name, words in (("view", ()), ("display", ()), ("replay", ("flight:=" + self.folder,))):

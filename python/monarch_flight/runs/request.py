@@ -150,7 +150,7 @@ class Check:
         """A launch file puts them between quotes into the command of a parameter."""
         if "true" in (self.values.get("in_process"), self.values.get("plan")):
             return
-        for name in ("case", "resume"):
+        for name in ("case", "resume", "guidance_file"):
             if set(self.values.get(name, "")) & set('"\\'):
                 self.fault(name, 'a run with nodes cannot use a path with " or \\; rename it, or fly with in_process:=true')
 
