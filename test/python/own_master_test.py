@@ -39,7 +39,8 @@ class OwnMaster(unittest.TestCase):
 
     def test_dead_master(self):
         nodes, said = self.nodes(ROS_MASTER_URI=URI, ROS_HOSTNAME="butterfly")
-        self.assertIn(f"{URI} does not answer", said)
+        self.assertIn(f"{URI} does not answer: the flight has a master of its own", said)
+        self.assertEqual(said.count("\n"), 1)
         self.assertTrue(nodes.port)
 
     def test_master_that_runs(self):
