@@ -100,6 +100,16 @@ class Build(unittest.TestCase):
         for _ in range(2):
             self.assertIn("build: failed", self.build(code=1))
 
+    def test_a_tree_that_was_copied(self):
+        """Its build is that of another place, which cmake refuses; nothing is built there."""
+        self.built()
+        copy = self.root.parent / "copy"
+        shutil.copytree(self.root, copy)
+        (self.root / "src/a.cpp").write_text("2\n")
+        self.root = copy
+        self.assertIn("CMakeCache.txt", self.build(code=1))
+        self.assertEqual((copy.parent / "a tree/build/devel/lib/program").read_text(), "1\n")
+
     def test_other_workspaces_are_always_looked_at(self):
         self.built()
         for _ in range(2):
