@@ -12,7 +12,8 @@
 namespace monarch_flight {
 namespace {
 
-const ros::WallDuration kLook(0.5);
+const ros::WallDuration kLook(0.5), kSlice(0.05);
+const ros::WallDuration kCoordinatorReads(5.0);  // its case, at the latest
 
 std::string parameterOf(const std::string& space, const std::string& node) {
   return RunNames(space).topic(std::string(kExitCodesKey) + "/" + node);
@@ -50,6 +51,20 @@ void EarlyEnd::refuse() {
     throw InputError(what_ + " has refused the run; the reason is its own message");
   if (code >= 0)
     throw ExchangeError(what_ + " has ended before the flight; the reason is its own message");
+}
+
+void leaveFaultToCoordinator(const std::string& space) {
+  if (!parametersOf(parameterOf(space, "coordinator")).valid()) return;
+  EarlyEnd coordinator(space, "coordinator", "the coordinator");
+  const ros::SteadyTime deadline = ros::SteadyTime::now() + kCoordinatorReads;
+  while (!stopRequested() && ros::SteadyTime::now() < deadline) {
+    try {
+      coordinator.refuse();
+    } catch (const ExchangeError&) {
+      return;
+    }
+    kSlice.sleep();
+  }
 }
 
 }  // namespace monarch_flight

@@ -16,12 +16,12 @@
 #include "monarch_flight/ros_io/flow_view.h"
 #include "monarch_flight/ros_io/loopback.h"
 #include "monarch_flight/ros_io/master.h"
+#include "monarch_flight/ros_io/model_folder.h"
 #include "monarch_flight/ros_io/participant_node.h"
 #include "monarch_flight/ros_io/pluginlib_source.h"
 #include "monarch_flight/run/federation.h"
 #include "monarch_flight/run/plugins.h"
 #include "monarch_flight/run/remarks.h"
-#include "monarch_flight/run/sha256.h"
 #include "monarch_flight/viz/urdf.h"
 
 namespace monarch_flight {
@@ -77,7 +77,8 @@ int nodeMain(const std::string& name, int argc, char** argv, const std::function
     startOnLoopback();
     if (alone && name == "coordinator")
       std::cout << "nodes can be reached from this machine only; for several machines set "
-                   "ROS_HOSTNAME or ROS_IP on each"
+                   "ROS_HOSTNAME or ROS_IP on each before anything of ROS starts there "
+                   "(docs/usage.md, another machine)"
                 << std::endl;
     try {
       return body();
@@ -103,13 +104,6 @@ bool given(const std::string& argument) {
   if (mark == std::string::npos) return true;
   const std::string value = argument.substr(mark + 2);
   return !value.empty() && value != "auto";
-}
-
-// Folder of the launcher's own files, as ROS has it.
-std::string rosHome() {
-  if (const char* home = std::getenv("ROS_HOME")) return home;
-  const char* home = std::getenv("HOME");
-  return std::string(home != nullptr ? home : ".") + "/.ros";
 }
 
 }  // namespace
@@ -202,12 +196,14 @@ int insectModelMain(int argc, char** argv) {
     }
     const RunParameters parameters = runParameters(static_cast<int>(others.size()), others.data());
     const Case c = loadCase(parameters);
-    // By what it looks like: two cases of one name may differ.
-    std::string folder = rosHome() + "/monarch_flight/model-" + c.name + "-" +
-                         sha256Hex(insectUrdf(c.insect, "")).substr(0, 12);
-    if (!parameters.out.empty()) folder = outputDirectory(parameters, c);
+    std::string folder;
+    if (parameters.out.empty()) {
+      folder = keptModel(c, rosHome());
+    } else {
+      folder = outputDirectory(parameters, c);
+      writeMeshes(c.insect, folder);
+    }
     if (uri.empty()) uri = "file://" + folder + "/";
-    writeMeshes(c.insect, folder);
     std::cout << insectUrdf(c.insect, uri);
     return static_cast<int>(kExitComplete);
   });

@@ -3,8 +3,11 @@
 #include <cstdlib>
 #include <iostream>
 #include <random>
+#include <utility>
 
 #include "monarch_flight/fluid/processes.h"
+#include "monarch_flight/math/errors.h"
+#include "monarch_flight/ros_io/early_end.h"
 #include "monarch_flight/ros_io/master.h"
 #include "monarch_flight/ros_io/node_main.h"
 #include "monarch_flight/ros_io/token_file.h"
@@ -15,10 +18,21 @@
 namespace monarch_flight {
 namespace {
 
-Case readCase(Role role, const RunNames& names) {
+/// Parameters and case, which all nodes of a run read: of their faults the coordinator tells.
+std::pair<RunParameters, Case> readRun(const RunNames& names) {
   XmlRpc::XmlRpcValue values = parametersOfRun(names);
-  const RunParameters parameters = runParameters(values, names.topic(""));
-  Case c = loadCase(parameters);
+  try {
+    RunParameters parameters = runParameters(values, names.topic(""));
+    Case c = loadCase(parameters);
+    return {std::move(parameters), std::move(c)};
+  } catch (const InputError&) {
+    leaveFaultToCoordinator(names.space());
+    throw;
+  }
+}
+
+Case readCase(Role role, const RunNames& names) {
+  auto [parameters, c] = readRun(names);
   if (role == Role::kFluid || role == Role::kFluidLeft) {
     requireProcesses(parameters, c);
     setFlowThreads(parameters.threads);

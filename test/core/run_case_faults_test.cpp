@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/case_fixture.h"
 #include "monarch_flight/run/pressure_reference.h"
 #include "monarch_flight/run/wing_speeds.h"
@@ -48,10 +51,26 @@ extra: 1
                            "time/steps_per_flap = 2.5",
                            "time/flaps = 0",
                            "time/foo is not a known key",
-                           "watchdog_s is given twice",
+                           "watchdog_s is given twice (lines 14 and 15); remove one of them",
                            "extra is not a known key",
                            "foo:=1 is not a known override"}) {
     expectHas(text, part);
+  }
+}
+
+TEST_F(CaseTest, TwinsOfAPresetAreNamedWithItsFile) {
+  const fs::path config = folder_ / "config";
+  fs::copy(CONFIG_DIR, config, fs::copy_options::recursive);
+  const fs::path preset = config / "insects" / "monarch_paper.yaml";
+  std::ofstream(preset, std::ios::app) << "\nextra: {mass: 1,\n  mass: 2}\n";
+  std::ifstream in(preset);
+  const auto lines = std::count(std::istreambuf_iterator<char>(in), {}, '\n');
+  try {
+    loadCase("climb_printed", {}, config.string());
+    FAIL() << "a twin was not seen";
+  } catch (const InputError& e) {
+    expectHas(e.what(), preset.string() + ": extra/mass is given twice (lines " +
+                            std::to_string(lines - 1) + " and " + std::to_string(lines) + ")");
   }
 }
 

@@ -115,7 +115,8 @@ TEST_F(CaseTest, AllFaultsOfAWindAtOnce) {
         "fluid/wind/gusts[1]/kind = 'wave': must be one of time, place",
         "fluid/wind/gusts[2]/length = -2 m: must be > 0", "fluid/wind/gusts[2]/amplitude[1]",
         "fluid/wind/gusts[2]/direction = [0, 0, 0]: must not be zero",
-        "fluid/wind/gusts[3]/start is given twice", "fluid/wind/gusts[3]/length is not a known key",
+        "fluid/wind/gusts[3]/start is given twice (line ",
+        "fluid/wind/gusts[3]/length is not a known key",
         "fluid/wind/gusts[4] = '7': must be a section of keys", "wind.csv: column 'wz' is missing",
         "fluid/wind/extra is not a known key"}) {
     expectHas(text, part);

@@ -113,6 +113,31 @@ class Launch(flying.FlightTest):
             self.assertIn(f"{node}: the coordinator has refused the run; the reason is its own message", output)
             self.assertRegex(output, rf"monarch_flight/{node}-\d+\] process has died \[pid \d+, exit code 2")
 
+    def roslaunch(self, *words):
+        line = 'source "$0/devel/setup.bash" && export ROS_MASTER_URI=$1 && shift && exec roslaunch "$@"'
+        environment = self.environment(PATH="/usr/bin:" + os.environ["PATH"], ROS_HOSTNAME="localhost")
+        return subprocess.run(["bash", "-c", line, flying.BUILD, self.master, *words], env=environment, text=True, timeout=60,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+
+    def test_a_fault_of_the_case_is_told_once(self):
+        """Before a node is started, so that the exit code of roslaunch tells it, too."""
+        done = self.roslaunch("monarch_flight", "flight.launch", "fluid:=quasi_steady", "flaps:=-1", "out:=" + self.out())
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertEqual(done.stdout.count("time/flaps = -1: must be > 0"), 1, done.stdout)
+        self.assertNotIn("process[", done.stdout)
+
+    def test_what_shows_something_is_refused_without_a_display(self):
+        """At once, for roslaunch ends with 0 when rviz does not start; the arguments can be listed all the same."""
+        for name, words in (("view", ()), ("display", ()), ("replay", ("flight:=" + self.folder,))):
+            file = os.path.join(flying.ROOT, "launch", name + ".launch")
+            done = self.roslaunch(file, *words)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("environment variable 'DISPLAY' is not set", done.stdout)
+            self.assertNotIn("process[", done.stdout)
+            done = self.roslaunch("--ros-args", file)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertIn("rviz_config", done.stdout)
+
     def test_flights_one_after_the_other_on_a_master_that_stays(self):
         """What they set is gone behind them, what others have set is not."""
         self.core()

@@ -40,6 +40,17 @@ class Requests(unittest.TestCase):
         self.assertRegex(str(wanted.folder), r"/flights/climb_controlled-\d{8}-\d{6}$")
         self.assertEqual(request([], BRIGHT).values["rviz"], "true")
 
+    def test_a_folder_that_nobody_has_named_has_the_time_at_which_the_run_begins(self):
+        run = self.run_folder()
+        for words, expected in (([], "/flights/climb_controlled-20300102-030405"),
+                                ([f"replay:={run}"], "/flights/run-20300102-030405"),
+                                ([f"out:={self.folder}/new"], f"{self.folder}/new"), ([f"resume:={run}"], str(run))):
+            wanted = request(words, DARK)
+            with mock.patch("time.strftime", lambda _: "20300102-030405"):
+                wanted.begin()
+            self.assertTrue(str(wanted.folder).endswith(expected), wanted.folder)
+            self.assertEqual(wanted.values.get("out", str(run)), str(wanted.folder))
+
     def test_rviz_outlives_the_flight_of_whoever_asks_for_it(self):
         self.assertTrue(request(["rviz:=true"], BRIGHT).stays)
         for words, environment in (([], DARK), (["rviz:=false"], BRIGHT), (["in_process:=true"], BRIGHT)):

@@ -34,6 +34,28 @@ TEST_F(EarlyEnds, OfTheCoordinatorEndsThoseThatWaitForIt) {
   for (Process* node : {fluid.get(), flight.get(), wing.get()}) refused(*node, "the coordinator");
 }
 
+TEST_F(EarlyEnds, AFaultOfTheCaseIsToldOnce) {
+  const std::string fault = "time/flaps = -1";
+  ros::param::set("/monarch_flight/flaps", "-1");
+  startAll();
+  EXPECT_EQ(2, coordinator->wait(8.0)) << coordinator->output();
+  EXPECT_TRUE(contains(coordinator->output(), fault)) << coordinator->output();
+  for (Process* node : {fluid.get(), flight.get(), wing.get()}) {
+    refused(*node, "the coordinator");
+    EXPECT_FALSE(contains(node->output(), fault)) << node->output();
+  }
+}
+
+TEST_F(EarlyEnds, NodesStartedByHandTellAFaultEach) {
+  ros::param::set("/monarch_flight/flaps", "-1");
+  ros::param::del("/monarch_flight/exit_codes");  // started by hand
+  startAll();
+  for (Process* node : {coordinator.get(), fluid.get(), flight.get(), wing.get()}) {
+    EXPECT_EQ(2, node->wait(8.0)) << node->output();
+    EXPECT_TRUE(contains(node->output(), "time/flaps = -1")) << node->output();
+  }
+}
+
 TEST_F(EarlyEnds, OfASolverEndsTheRun) {
   ros::param::set("/monarch_flight/ranks", 2);  // it is not started by mpirun
   ros::param::set("/monarch_flight/fluid", "navier_stokes");

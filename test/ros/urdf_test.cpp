@@ -5,11 +5,15 @@
 #include <ros/ros.h>
 #include <tf2/buffer_core.h>
 
+#include <chrono>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <random>
 #include <regex>
 
 #include "monarch_flight/ros_io/flight_messages.h"
+#include "monarch_flight/ros_io/model_folder.h"
 #include "monarch_flight/ros_io/run_parameters.h"
 #include "monarch_flight/viz/frames.h"
 #include "monarch_flight/viz/mesh.h"
@@ -155,6 +159,46 @@ TEST(Urdf, MovesLikeTheFrames) {
       EXPECT_LT((theirs.matrix() - mine.matrix()).norm(), 1e-12) << frame;
     }
   }
+}
+
+/// A folder below another one, last used so many days ago, with a file in it.
+std::filesystem::path usedBefore(const std::filesystem::path& folder, int days,
+                                 const std::string& file) {
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / file) << "x";
+  std::filesystem::last_write_time(
+      folder, std::filesystem::file_time_type::clock::now() - std::chrono::hours(24 * days));
+  return folder;
+}
+
+TEST(Urdf, ModelsThatNobodyUsesAnyMoreAreRemoved) {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const fs::path home = folder / "home", place = home / "monarch_flight";
+  const fs::path old = usedBefore(place / "model-a-0123456789ab", 31, "right_wing.stl"),
+                 used = usedBefore(place / "model-b-0123456789ab", 29, "right_wing.stl"),
+                 precious = usedBefore(place / "model-c-0123456789ab", 31, "precious.txt"),
+                 others = usedBefore(place / "mine", 31, "right_wing.stl"),
+                 elsewhere = usedBefore(folder / "model-d-0123456789ab", 31, "right_wing.stl");
+  fs::create_directory_symlink(elsewhere, place / "model-e-0123456789ab");
+  const auto token = [&place](const std::string& name, int days) {
+    std::ofstream(place / name) << "of one run: ";
+    fs::last_write_time(place / name,
+                        fs::file_time_type::clock::now() - std::chrono::hours(24 * days));
+    return place / name;
+  };
+  const fs::path killed = token("token_a_1", 31), running = token("token_a_2", 0);
+  const fs::path again = keptModel(climb(), home);
+  EXPECT_TRUE(fs::exists(again / "left_wing.stl"));
+  EXPECT_FALSE(fs::exists(old));
+  EXPECT_FALSE(fs::exists(killed));
+  for (const fs::path& kept : {used / "right_wing.stl", precious / "precious.txt",
+                               others / "right_wing.stl", elsewhere / "right_wing.stl", running})
+    EXPECT_TRUE(fs::exists(kept)) << kept;
+  // One that is used again is as good as new.
+  fs::last_write_time(again, fs::file_time_type::clock::now() - std::chrono::hours(24 * 31));
+  EXPECT_EQ(again, fs::path(keptModel(climb(), home)));
+  EXPECT_TRUE(fs::exists(again / "left_wing.stl"));
 }
 
 }  // namespace

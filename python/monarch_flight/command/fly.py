@@ -29,6 +29,7 @@ def fly(words):
         preparing.ready(*sections(request))
         if reporting.wanted(request):
             preparing.tried("report")
+        request.begin()
         from monarch_flight.runs import flight
         return flight.fly(request, stop, telling.called_as("fly"))
     except SystemExit as end:  # of a script that was stopped, too

@@ -11,6 +11,7 @@ from monarch_flight.runs.ending import REFUSED, Ending
 from monarch_flight.telling import FAILED, STOPPED, passed_on, say
 
 PYTHON = "/usr/bin/python3"  # which has the ROS modules
+LOCAL = ("", "localhost", "127.0.0.1")
 
 
 def now():
@@ -29,6 +30,14 @@ def in_process(request):
     return command, base
 
 
+def own_master(base, uri):
+    """Says why a flight has a master of its own, who sees it, and the remedy. `uri`: of a master that does not answer."""
+    dead = f"ROS_MASTER_URI={uri} does not answer: " if uri else ""
+    unused = [f"{name}={base[name]}" for name in ("ROS_HOSTNAME", "ROS_IP") if base.get(name, "localhost") not in LOCAL]
+    return (f"fly: {dead}the flight has a master of its own and is seen from this machine only; for other machines: docs/usage.md, "
+            "another machine" + (" (" + ", ".join(unused) + " is for a master that runs already)" if unused else ""))
+
+
 class Nodes:
     """The command that starts them, on the person's master or on one of its own."""
 
@@ -39,8 +48,7 @@ class Nodes:
         if uri and master.answers(uri):
             self.why_not = master.busy(uri)
         else:
-            if uri:
-                print(f"fly: ROS_MASTER_URI={uri} does not answer; starting an own master")
+            print(own_master(base, uri))
             self.port = master.free_port()
             self.environment = dict(base, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost")
             self.environment.pop("ROS_IP", None)

@@ -11,6 +11,11 @@ from monarch_flight import case_files, keys, places
 from monarch_flight.runs import node_keys
 
 
+def new_folder(name):
+    """That of a run for which nobody has named one."""
+    return places.flights() / f"{name}-{time.strftime('%Y%m%d-%H%M%S')}"
+
+
 @dataclasses.dataclass
 class Request:
     """A run that may be flown. `values`: the keys that are given or follow from others, paths absolute."""
@@ -18,6 +23,7 @@ class Request:
     folder: pathlib.Path
     leader: str  # who leads the wingbeat
     stays: bool = False  # rviz outlives the flight
+    unnamed: str = ""  # the case, where nobody has named a folder
 
     def given(self, name):
         return self.values.get(name, "")
@@ -37,6 +43,12 @@ class Request:
     def ranks(self):
         return int(self.values.get("ranks", 1))
 
+    def begin(self):
+        """The run begins now, perhaps long after it was asked for: a folder that nobody has named has this time."""
+        if self.unnamed:
+            self.folder = places.person_path(new_folder(self.unnamed))
+            self.values["out"] = str(self.folder)
+
     def words(self, taker):
         """key:=value, as another program takes them."""
         table = keys.run_keys().of(taker)
@@ -48,7 +60,7 @@ class Check:
 
     def __init__(self, values, faults, display):
         self.values, self.faults, self.display = values, faults, display
-        self.name = ""  # of the case, for people
+        self.name = self.unnamed = ""  # of the case, for people
         self.stays, self.asked = False, values.get("rviz") == "true"  # batch runs do not wait for somebody to close it
         self.resumed, self.replayed = values.get("resume"), values.get("replay")
 
@@ -99,8 +111,9 @@ class Check:
         return content if isinstance(content, dict) else {}
 
     def folder(self):
-        stamp = time.strftime("%Y%m%d-%H%M%S")
-        out = self.values.get("resume") or self.values.get("out") or places.flights() / f"{self.name}-{stamp}"
+        named = self.values.get("resume") or self.values.get("out")
+        self.unnamed = "" if named else self.name
+        out = named or new_folder(self.name)
         folder = places.person_path(out)
         try:
             if not self.resumed and folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
@@ -137,7 +150,7 @@ class Check:
         """A launch file puts them between quotes into the command of a parameter."""
         if "true" in (self.values.get("in_process"), self.values.get("plan")):
             return
-        for name in ("case", "resume"):
+        for name in ("case", "resume", "guidance_file"):
             if set(self.values.get(name, "")) & set('"\\'):
                 self.fault(name, 'a run with nodes cannot use a path with " or \\; rename it, or fly with in_process:=true')
 
@@ -171,4 +184,4 @@ def request(words, environment=None):
     check.paths()
     if faults:
         raise keys.Refused(*faults)
-    return Request(values, folder, leader, check.stays)
+    return Request(values, folder, leader, check.stays, check.unnamed)

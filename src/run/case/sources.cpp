@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "monarch_flight/math/errors.h"
@@ -60,6 +61,32 @@ YAML::Node loadMap(const fs::path& path) {
   return node;
 }
 
+/// Where two keys of one name stand, where that is known: a node that no text was read for has no
+/// line.
+std::string bothLines(int first, int second) {
+  if (first < 0 || second < 0) return "";
+  return first == second
+             ? " (line " + std::to_string(first + 1) + ")"
+             : " (lines " + std::to_string(first + 1) + " and " + std::to_string(second + 1) + ")";
+}
+
+/// Keys given twice, at every depth.
+void checkTwins(const YAML::Node& map, const std::string& above, Faults& faults) {
+  std::map<std::string, int> first_line;
+  for (const auto& entry : map) {
+    const std::string key = above + entry.first.Scalar();
+    const YAML::Node& value = entry.second;
+    const int line = entry.first.Mark().line;
+    const auto [first, is_new] = first_line.emplace(key, line);
+    if (!is_new)
+      faults.add(key + " is given twice" + bothLines(first->second, line) + "; remove one of them");
+    if (value.IsMap()) checkTwins(value, key + "/", faults);
+    for (std::size_t i = 0; value.IsSequence() && i < value.size(); ++i) {
+      if (value[i].IsMap()) checkTwins(value[i], key + "[" + std::to_string(i) + "]/", faults);
+    }
+  }
+}
+
 /// Lays the file that `section/key` names (stem + suffix in config_dir/insects) below the section.
 void layBelow(YAML::Node root, const std::string& section, const std::string& key,
               const std::string& suffix, const std::string& config_dir, Faults& faults) {
@@ -76,7 +103,9 @@ void layBelow(YAML::Node root, const std::string& section, const std::string& ke
     return;
   }
   try {
-    YAML::Node merged = overlaid(loadMap(file), top);
+    const YAML::Node below = loadMap(file);
+    checkTwins(below, file.string() + ": ", faults);
+    YAML::Node merged = overlaid(below, top);
     merged.remove(key);
     root[section] = merged;
   } catch (const InputError& e) {
@@ -95,20 +124,6 @@ void overrideGrid(YAML::Node root, const std::string& level) {
     if (old.IsDefined() && get(old, key).IsDefined()) grid[key] = YAML::Clone(get(old, key));
   }
   root["grid"] = grid;
-}
-
-/// Keys given twice, at every depth.
-void checkTwins(const YAML::Node& map, const std::string& above, Faults& faults) {
-  std::set<std::string> seen;
-  for (const auto& entry : map) {
-    const std::string key = above + entry.first.Scalar();
-    const YAML::Node& value = entry.second;
-    if (!seen.insert(key).second) faults.add(key + " is given twice; remove one of them");
-    if (value.IsMap()) checkTwins(value, key + "/", faults);
-    for (std::size_t i = 0; value.IsSequence() && i < value.size(); ++i) {
-      if (value[i].IsMap()) checkTwins(value[i], key + "[" + std::to_string(i) + "]/", faults);
-    }
-  }
 }
 
 std::string overrideNames(const std::vector<RunKey>& keys) {
