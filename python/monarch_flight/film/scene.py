@@ -281,8 +281,11 @@ class Stage:
         image = vtkWindowToImageFilter()
         image.SetInput(self.window)
         image.ReadFrontBufferOff()
+        image.ShouldRerenderOff()
         image.Update()
         width, height, _ = image.GetOutput().GetDimensions()
         pixels = vtk_to_numpy(image.GetOutput().GetPointData().GetScalars()).reshape(height, width, -1)[::-1, :, :3]
         n = self.sharp
-        return pixels.reshape(height // n, n, width // n, n, 3).mean(axis=(1, 3)).round().astype(np.uint8)
+        rows = sum(pixels[i::n].astype(np.uint16) for i in range(n))
+        total = sum(rows[:, i::n] for i in range(n))
+        return ((total + n * n // 2) // (n * n)).astype(np.uint8)

@@ -68,7 +68,7 @@ class Means:
         self.weights = (weights / weights.sum(axis=1, keepdims=True)).astype(np.float32)
 
     def of(self, values):
-        return self.weights @ values
+        return self.weights @ values.astype(np.float32)
 
 
 def points_of(data):
