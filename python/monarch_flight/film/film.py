@@ -81,14 +81,15 @@ class Film:
             frame = marker.header.frame_id[len(flight.prefix):]
             if frame in WINGS:
                 self.wings[frame] = scene.Wing(marker, frame, cp, 0.002 * scales.span)
-                self.vortices[frame] = scene.Vortices(omega, self.wanted["opacity"])
+                self.vortices[frame] = scene.Vortices(omega, self.wanted["opacity"], self.stage.camera)
             else:
                 self.bodies.append((frame, scene.body(marker)))
         actors = [a for wing in self.wings.values() for a in wing.actors()] + [a for _, a in self.bodies]
+        self.add_ground()  # first: it is seen through the vortices
         for actor in actors + [v.actor for v in self.vortices.values()]:
             self.renderer.AddActor(actor)
-        self.add_ground()
         self.add_legends(cp, omega)
+        self.stage.frame()  # the colour bars find the places of their words while they are drawn first
 
     def add_ground(self):
         spacing = 0.02 if self.scales.span < 0.2 else 0.1 * self.scales.span
@@ -124,7 +125,8 @@ class Film:
         self.show_path(t)
         flaps = f"   flap {t / flight.period:.2f}" if flight.period else ""
         self.caption.SetInput(f"t = {1000 * t:.0f} ms{flaps}")
-        self.stage.look(*self.camera.at(t))
+        seen = [v.actor for v in self.vortices.values() if v.actor.GetVisibility()]
+        self.stage.look(*self.camera.at(t), seen)
         return self.stage.frame()
 
     def show_path(self, t):
