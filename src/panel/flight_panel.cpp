@@ -4,6 +4,8 @@
 
 #include <QFrame>
 #include <QGridLayout>
+#include <QGuiApplication>
+#include <QScreen>
 #include <QScrollArea>
 #include <QTimer>
 #include <pluginlib/class_list_macros.hpp>
@@ -20,6 +22,7 @@ namespace {
 constexpr int kRefresh = 100;  // [ms]
 constexpr std::uint32_t kQueue = 200;
 constexpr char kSpaceKey[] = "Namespace";  // of the config
+constexpr char kFillKey[] = "Fill Screen";
 
 std::string spaceOf(const QString& typed) {
   std::string space = typed.trimmed().toStdString();
@@ -96,6 +99,7 @@ void FlightPanel::onInitialize() {
 
 void FlightPanel::load(const rviz::Config& config) {
   rviz::Panel::load(config);
+  config.mapGetBool(kFillKey, &fill_);
   QString space;
   if (!config.mapGetString(kSpaceKey, &space) || space == space_->text()) return;
   space_->setText(space);
@@ -195,8 +199,20 @@ QString FlightPanel::place() const {
   }
 }
 
+/// The window over all of the screen that no bar of the desktop takes, once it is there. Not saved:
+/// what a person saves keeps the size that it has.
+void FlightPanel::fillScreen() {
+  QWidget* all = window();
+  if (!fill_ || !all->isVisible()) return;
+  fill_ = false;
+  if (all->isFullScreen()) return;
+  all->setGeometry(QGuiApplication::primaryScreen()->availableGeometry());
+  all->showMaximized();
+}
+
 /// Ten times a second, however many steps have come.
 void FlightPanel::refresh() {
+  fillScreen();
   if (place_->text() != "<b>" + place() + "</b>") place_->setText("<b>" + place() + "</b>");
   if (!fresh_) return;
   fresh_ = false;

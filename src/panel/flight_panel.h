@@ -42,6 +42,7 @@ class FlightPanel : public rviz::Panel {
   void onState(const FlightState& state);
   void onIterations(const StepIterations& step);
   void onScales(const ColourScales& scales);
+  void fillScreen();
   void refresh();
   QString place() const;
 
@@ -58,6 +59,7 @@ class FlightPanel : public rviz::Panel {
   std::optional<Case> case_;
   std::string case_text_;
   std::optional<WingbeatCommand> taken_;  // the newest, of the run
+  bool fill_ = false;                     // the screen, as soon as the window is shown
   bool fresh_ = false;                    // something has come since the last refresh
   ros::Publisher command_;
   std::vector<ros::Subscriber> heard_;

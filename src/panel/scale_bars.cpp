@@ -64,7 +64,7 @@ void ScaleBars::paintScale(QPainter& painter, const ColourScale& scale, const QR
                        colourOf(scale.colours[i]));
   painter.fillRect(bar, colours);
   const QRect numbers(row.left(), bar.bottom() + 1, row.width(), line);
-  const QString limit = QString::number(scale.limit, 'g', 3);
+  const QString limit = QString::number(scale.limit, 'g', 4);
   painter.drawText(numbers, Qt::AlignLeft, QChar(0x2212) + limit);
   painter.drawText(numbers, Qt::AlignHCenter, "0");
   painter.drawText(numbers, Qt::AlignRight, limit);

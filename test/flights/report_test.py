@@ -145,7 +145,7 @@ class Parts(unittest.TestCase):
     def test_scale_of_colours_is_round_and_covers(self):
         self.assertEqual(pressure.limit([np.array([-1.7, 0.2])]), 2)
         self.assertEqual(pressure.limit([np.array([0.031] * 500), np.array([9.0])]), 10)
-        self.assertEqual(pressure.limit([np.array([0.031] * 500)]), 0.04)
+        self.assertEqual(pressure.limit([np.array([0.031] * 500)]), 0.05)
 
     def test_comments_belong_to_the_key_below(self):
         text = "a:\n  # Mass; status: given\n  b: 1\n\n  c: 2\n# two\n# lines; status: assumed, as x\nd: {e: 1}\n"

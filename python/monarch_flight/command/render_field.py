@@ -14,7 +14,7 @@ KEYS = Table([
     Key("flap", "number", "time t/T of the picture in flapping periods; the nearest file is taken",
         default="the last one written"),
     Key("q", "number", "iso-value of Q", unit="1/s2", default="a tenth of (peak tip speed / mean chord)^2"),
-    Key("vorticity", "number", "end of the colour scale", unit="1/s", default="4 times the root of q"),
+    Key("vorticity", "number", "end of the colour scale", unit="1/s", default="4 times the root of q, rounded up"),
     Key("cp", "number", "end of the colour scale of the wings", default="1"),
     Key("view", "choice", "where the camera stands", choices=tuple(VIEWS), default="oblique"),
     Key("size", "text", "width and height in pixels", default="1600x1100")])

@@ -13,12 +13,13 @@ from vtkmodules.vtkFiltersCore import (vtkCellDataToPointData, vtkContourFilter,
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLStructuredGridReader
-from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkActor2D, vtkColorTransferFunction, vtkPolyDataMapper, vtkPolyDataMapper2D,
                                          vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from monarch_flight.figures import insect_actors
+from monarch_flight.film import scene
+from monarch_flight.report.pressure import rounded_up
 
 # Ends of the two scales, both told apart by eyes that see no red or no green.
 BLUE, RED = (0.13, 0.29, 0.74), (0.73, 0.10, 0.13)
@@ -153,26 +154,6 @@ def path(points, radius, colour):
     return actor
 
 
-def bar(scale, title, x):
-    legend = vtkScalarBarActor()
-    legend.SetLookupTable(scale)
-    legend.SetTitle(title)
-    legend.SetNumberOfLabels(5)
-    legend.SetPosition(x, 0.05)
-    legend.SetWidth(0.12)
-    legend.SetBarRatio(0.2)
-    legend.SetHeight(0.36)
-    legend.SetLabelFormat("%.3g")
-    legend.UnconstrainedFontSizeOn()
-    for text, size in ((legend.GetTitleTextProperty(), 30), (legend.GetLabelTextProperty(), 27)):
-        text.SetColor(0, 0, 0)
-        text.SetFontSize(size)
-        text.BoldOff()
-        text.ItalicOff()
-        text.ShadowOff()
-    return legend
-
-
 def wing_actors(surfaces, limit):
     """Both sides, each by its own pressure: the front side of every face is the ventral one."""
     scale, actors = diverging(limit, BLUE, RED), []
@@ -186,9 +167,12 @@ def wing_actors(surfaces, limit):
     return actors, scale
 
 
+STRIP = 0.14  # of the height: below the scene, where its measures stand
+
+
 def scale_bar(renderer, size):
-    """A bar of a round length at the lower right; the projection is parallel, so it holds everywhere."""
-    seen = 2 * renderer.GetActiveCamera().GetParallelScale()  # m in the height of the picture
+    """A bar of a round length at the right of the strip; the projection is parallel, so it holds everywhere."""
+    seen = 2 * renderer.GetActiveCamera().GetParallelScale() / (1 - STRIP)  # m in the height of the picture
     power = 10.0 ** np.floor(np.log10(0.25 * seen))
     length = max(step * power for step in (1, 2, 5) if step * power <= 0.25 * seen)
     pixels, right, low = length / seen * size[1], size[0] - 60, 60
@@ -234,8 +218,9 @@ def draw(flow_file, wing_file, insect, paths, direction, keys):
 
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
+    renderer.SetViewport(0, STRIP, 1, 1)
     surface = vortices(flow, q, span)
-    vorticity_scale = diverging(keys["vorticity"] or 4 * q ** 0.5, TEAL, ORANGE)
+    vorticity_scale = diverging(keys["vorticity"] or rounded_up(4 * q ** 0.5), TEAL, ORANGE)
     left_file = os.path.join(os.path.dirname(flow_file), "flow_left_" + os.path.basename(flow_file).split("_", 1)[1])
     if os.path.exists(left_file):  # both wings are solved
         left_reader = vtkXMLStructuredGridReader()
@@ -257,8 +242,6 @@ def draw(flow_file, wing_file, insect, paths, direction, keys):
     for points, colour in zip(paths, (FLOWN, MEASURED)):
         if len(points) > 1:
             renderer.AddActor(path(points, 0.012 * span, colour))
-    renderer.AddActor2D(bar(vorticity_scale, "spanwise\nvorticity [1/s]", 0.01))
-    renderer.AddActor2D(bar(pressure_scale, "wing\nCp", 0.14))
 
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
@@ -269,12 +252,22 @@ def draw(flow_file, wing_file, insect, paths, direction, keys):
     camera.Zoom(1.25)
     renderer.ResetCameraClippingRange()
     size = [int(n) for n in keys["size"].split("x")]
+    save(renderer, strip(renderer, size, vorticity_scale, pressure_scale), size, keys["picture"])
+
+
+def strip(renderer, size, vorticity_scale, pressure_scale):
+    """What the scene is measured by, below it."""
+    below = vtkRenderer()
+    below.SetBackground(1, 1, 1)
+    below.SetViewport(0, 0, 1, STRIP)
+    for scale, title, x in (vorticity_scale, "spanwise vorticity [1/s]", 0.03), (pressure_scale, "wing Cp", 0.33):
+        below.AddActor2D(scene.bar(scale, title, (0, 0, 0), (x, 0.02, 0.24, 0.96), size[1]))
     for one in scale_bar(renderer, size):
-        renderer.AddActor2D(one)
-    save(renderer, size, keys["picture"])
+        below.AddActor2D(one)
+    return below
 
 
-def save(renderer, size, name):
+def save(renderer, below, size, name):
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetSize(*size)
@@ -283,6 +276,7 @@ def save(renderer, size, name):
     renderer.SetUseDepthPeeling(1)
     renderer.SetMaximumNumberOfPeels(8)
     window.AddRenderer(renderer)
+    window.AddRenderer(below)
     window.Render()
     image = vtkWindowToImageFilter()
     image.SetInput(window)

@@ -7,16 +7,12 @@ from monarch_flight.film import scene, wings
 from monarch_flight.film.encode import Encoder
 from monarch_flight.film.flight import Block, Flight, pressure
 from monarch_flight.film.views import Camera
+from monarch_flight.report.pressure import rounded_up
 from monarch_flight.telling import say
 
 WINGS = ("right_wing", "left_wing")
 AIR = 0.5  # of rho U^2 / 2
-
-
-def nice(value):
-    """Rounded up to 1, 1.5, 2, 3, 5 or 7 times a power of ten."""
-    ten = 10.0 ** np.floor(np.log10(value))
-    return next(step * ten for step in (1, 1.5, 2, 3, 5, 7, 10) if step * ten >= value * (1 - 1e-9))
+BAR = 0.82, 0.21, 0.16  # low end, width and height of a colour bar, as shares of the picture
 
 
 class Scales:
@@ -48,7 +44,7 @@ class Scales:
 
     def largest_cp(self, flight):
         values = [np.abs(pressure(m)[:, 4:]).ravel() for s in flight.pressure.values() for m in s.messages[1:]]
-        return nice(self.per_pascal * np.percentile(np.concatenate(values), 96)) if values else None
+        return rounded_up(self.per_pascal * np.percentile(np.concatenate(values), 96)) if values else None
 
     def largest_omega(self, flight):
         found = []
@@ -57,7 +53,7 @@ class Scales:
                 block = Block(message)
                 found.append(np.abs(block.omega[block.q_root > self.q**0.5]))
         found = np.concatenate(found) if found else np.zeros(0)
-        return nice(np.percentile(found, 80)) if len(found) else None
+        return rounded_up(np.percentile(found, 80)) if len(found) else None
 
 
 class Film:
@@ -103,10 +99,10 @@ class Film:
         _, height = (self.stage.sharp * n for n in self.wanted["size"])
         x = 0.765
         if self.flight.pressure and self.wanted["wings"] == "pressure":
-            self.renderer.AddActor2D(scene.bar(cp, "pressure coefficient", self.theme[4], x, height))
+            self.renderer.AddActor2D(scene.bar(cp, "pressure coefficient", self.theme[4], (x, *BAR), height))
             x -= 0.25
         if self.flight.flow:
-            self.renderer.AddActor2D(scene.bar(omega, "vorticity along the span [1/s]", self.theme[4], x, height))
+            self.renderer.AddActor2D(scene.bar(omega, "vorticity along the span [1/s]", self.theme[4], (x, *BAR), height))
         self.caption = scene.words("", int(0.034 * height), self.theme[4], 0.03 * height, 0.94 * height)
         self.renderer.AddActor2D(self.caption)
         note = scene.words(f"grid {1000 * self.grid:g} mm", int(0.024 * height), self.theme[4],

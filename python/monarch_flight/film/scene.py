@@ -16,6 +16,7 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper, 
                                          vtkTextActor, vtkWindowToImageFilter)
 
 from monarch_flight.film import wings as wing_data
+from monarch_flight.report.pressure import weights
 
 # Stops at equal distances, as src/viz/colours.cpp has them.
 PRESSURE = ((0.13, 0.40, 0.67), (0.40, 0.66, 0.81), (0.82, 0.90, 0.94), (0.97, 0.97, 0.97), (0.99, 0.86, 0.78),
@@ -82,7 +83,7 @@ class Wing:
         self.sheet = wing_data.sheet(marker)
         self.points = wing_data.points_of(self.sheet)
         self.sides = [self.side(dorsal, lift) for dorsal in (True, False)]
-        self.means = self.facets = None
+        self.share = self.facets = None
         for actor in self.actors():
             actor.GetProperty().SetAmbient(0.62)
             actor.GetProperty().SetDiffuse(0.42)
@@ -108,10 +109,12 @@ class Wing:
                 self.colour(actor, facets, facets[:, column] * per_pascal)
 
     def colour(self, actor, facets, values):
-        if self.means is None or not np.array_equal(facets[:, :4], self.facets):
-            self.facets, self.means = facets[:, :4], wing_data.Means(facets, self.points)
+        if self.share is None or not np.array_equal(facets[:, :4], self.facets):
+            self.facets = facets[:, :4]
+            places = dict(zip(("x", "y", "dx", "dy"), self.facets.T))
+            self.share = weights(self.points, places).astype(np.float32)
         data = actor.GetMapper().GetInput()
-        data.GetPointData().SetScalars(numpy_to_vtk(self.means.of(values).astype(np.float32), deep=True))
+        data.GetPointData().SetScalars(numpy_to_vtk(self.share @ values.astype(np.float32), deep=True))
 
 
 class Vortices:
@@ -226,7 +229,8 @@ def words(text, size, colour, x, y, right=False):
     return actor
 
 
-def bar(lookup, title, colour, x, height):
+def bar(lookup, title, colour, box, height):
+    """A colour bar within `box`: left, low, width, height as shares of the view; `height` of the picture in pixels."""
     legend = vtkScalarBarActor()
     legend.SetLookupTable(lookup)
     legend.SetTitle("\n" + title)  # away from the numbers
@@ -234,9 +238,9 @@ def bar(lookup, title, colour, x, height):
     legend.SetOrientationToHorizontal()
     legend.SetNumberOfLabels(3)
     legend.SetLabelFormat("%.4g")
-    legend.SetPosition(x, 0.82)
-    legend.SetWidth(0.21)
-    legend.SetHeight(0.16)
+    legend.SetPosition(*box[:2])
+    legend.SetWidth(box[2])
+    legend.SetHeight(box[3])
     legend.SetBarRatio(0.16)
     legend.SetVerticalTitleSeparation(int(0.012 * height))
     legend.SetTextPad(int(0.005 * height))

@@ -2,7 +2,7 @@
 import numpy as np
 
 # Towards the camera, seen from the body: to its right, forward, up. Views are told for a flight to the north.
-BELOW = 0.055  # of the distance: the body stands above the middle of the picture, its wake below
+BELOW = 0.04  # of the distance: the body stands above the middle of the picture, its wake below
 VIEWS = {
     "oblique": (0.80, 0.62, 0.42),
     "side": (1.0, 0.0, 0.06),

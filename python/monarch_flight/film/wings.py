@@ -1,10 +1,8 @@
-"""The wings of the recorded model as meshes, and the pressure of their facets made smooth on them."""
+"""The wings of the recorded model as meshes."""
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-
-WIDTH, REACH = 0.75, 2.0  # of the mean around a point, in sizes of a facet; as src/viz/wing_sheet.cpp
 
 
 def triangles(corners, colours=None):
@@ -53,22 +51,6 @@ def sheet(marker):
     cells.SetData(3, numpy_to_vtk(places.astype(np.int64), deep=True, array_type=12))
     out.SetPolys(cells)
     return out
-
-
-class Means:
-    """Takes values of facets to points: a mean of those around, the near ones weighing most."""
-
-    def __init__(self, facets, points):
-        x = (points[:, None, 0] - facets[None, :, 0]) / facets[None, :, 2]
-        y = (points[:, None, 1] - facets[None, :, 1]) / facets[None, :, 3]
-        d = x * x + y * y
-        weights = np.where(d <= REACH * REACH, np.exp(-0.5 * d / WIDTH**2), 0.0)
-        lost = weights.sum(axis=1) == 0.0
-        weights[lost, np.argmin(d[lost], axis=1)] = 1.0
-        self.weights = (weights / weights.sum(axis=1, keepdims=True)).astype(np.float32)
-
-    def of(self, values):
-        return self.weights @ values.astype(np.float32)
 
 
 def points_of(data):

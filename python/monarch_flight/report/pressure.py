@@ -59,7 +59,10 @@ def of_wing(facets_of_time, points):
 
 def limit(coefficients):
     """End of the colour scale, the same to both sides: what 99 of 100 points stay below, a round number."""
-    high = max(float(np.percentile(np.abs(values), 99)) for values in coefficients)
-    steps = [1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10]
-    power = 10.0 ** np.floor(np.log10(max(high, 1e-3)))
-    return float(power * next(step for step in steps if step * power >= high * 0.999))
+    return rounded_up(max(1e-3, *(float(np.percentile(np.abs(values), 99)) for values in coefficients)))
+
+
+def rounded_up(value):
+    """To 1, 1.5, 2, 3, 5 or 7 times a power of ten, as src/viz/colours.cpp: the end of a colour scale."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * next(step for step in (1, 1.5, 2, 3, 5, 7, 10) if step * power >= value * 0.999))
