@@ -34,6 +34,11 @@ const short = value => {
   return size !== 0 && size < 0.01 ? value.toExponential(1) : value.toFixed(size < 1 ? 3 : size < 10 ? 2 : 1);
 };
 
+// Without the case, where it is the same of all.
+const parts = runs.map(run => run.label.split(", "));
+const sameCase = several && parts.every(part => part.length === 2 && part[0] === parts[0][0]);
+const nameOf = run => sameCase ? parts[run][1] : runs[run].label;
+
 class Panel {
   constructor(chart, place, goTo) {
     this.chart = chart;
@@ -55,7 +60,7 @@ class Panel {
     const item = document.createElement("span"), label = document.createElement("span"), value = document.createElement("b");
     const key = document.createElement("i");
     key.className = "key " + line.kind;
-    label.textContent = (several && line.kind !== "measured" ? runs[line.run].label + ": " : "") + line.name + " ";
+    label.textContent = (several && line.kind !== "measured" ? nameOf(line.run) + ": " : "") + line.name + " ";
     item.append(key, label, value);
     place.append(item);
     return {key, value, line};
@@ -90,7 +95,8 @@ class Panel {
     if (this.chart.scale === "logarithmic") this.plot.options.scales.y.ticks.callback = value => Number.isInteger(Math.log10(value)) ? value.toExponential(0) : "";
     this.values.forEach(({key, line}) => {
       const style = styled(line);
-      key.style.borderTopStyle = style.borderDash && style.borderDash.length ? "dashed" : "solid";
+      const dash = style.borderDash && style.borderDash[0];
+      key.style.borderTopStyle = !dash ? "solid" : dash < 4 ? "dotted" : "dashed";
       key.style.borderTopColor = line.kind === "measured" ? style.backgroundColor : style.borderColor;
     });
     this.plot.update("none");

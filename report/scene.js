@@ -63,7 +63,8 @@ function drawing(canvas) {
     const wide = name === "whole" ? Math.hypot(size.x * 0.5, size.y) : (2.8 + (state.apart && across + 0.75 ? 3.2 * (runs.length - 1) : 0)) * span;
     const high = name === "whole" ? size.z : 2.2 * span;
     const tangent = Math.tan(camera.fov * Math.PI / 360);
-    const distance = Math.max(high / 2 / tangent, wide / 2 / tangent / camera.aspect);
+    const nearer = name !== "whole" && state.apart ? 3.2 * (runs.length - 1) * span * Math.abs(direction.x) : 0;  // those in front
+    const distance = Math.max(high / 2 / tangent + nearer, wide / 2 / tangent / camera.aspect);
     controls.target.copy(target);
     camera.position.copy(target).addScaledVector(direction, distance * 1.12);
     controls.update();

@@ -104,7 +104,7 @@ def speed(flown):
     length = np.sqrt((v ** 2).sum(axis=0))[flown.rows]
     curves = [Curve("speed", length)]
     if np.isfinite(means).any():
-        curves.append(Curve("of the mean velocity of the last flap", np.sqrt((means ** 2).sum(axis=0))))
+        curves.append(Curve("mean velocity of the last flap", np.sqrt((means ** 2).sum(axis=0))))
         yield Chart("Speed over ground", "m/s", curves)
         climb = np.degrees(np.arctan2(-means[2], np.hypot(means[0], means[1])))
         yield Chart("Climb, mean of the last flap", "deg", [Curve("climb", climb)])
