@@ -10,4 +10,5 @@ matplotlib.rcParams.update({
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#e4e9ee", "grid.linewidth": 0.8,
     "axes.axisbelow": True, "axes.prop_cycle": matplotlib.cycler(color=[OURS, THEIRS, THIRD, "#cc79a7", "#b8860b", "#56b4e9"]),
     "xtick.color": "#55606b", "ytick.color": "#55606b", "xtick.labelsize": 8, "ytick.labelsize": 8, "lines.linewidth": 1.5,
-    "legend.fontsize": 8, "legend.frameon": False, "figure.titlesize": 11, "savefig.dpi": 160, "savefig.facecolor": "white"})
+    "legend.fontsize": 8, "legend.edgecolor": "white", "legend.framealpha": 0.85, "legend.fancybox": False,
+    "figure.titlesize": 11, "savefig.dpi": 160, "savefig.facecolor": "white"})

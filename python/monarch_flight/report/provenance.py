@@ -39,7 +39,7 @@ def told(value):
 
 
 def kind(comment):
-    """given, fitted, computed or assumed."""
+    """given, fitted, computed, derived or assumed."""
     word = STATUS.search(comment)
     first = re.match(r"[a-z]+", word[1].strip()) if word else None
     return first[0] if first else ""
@@ -56,8 +56,8 @@ def rows(flown):
                 value = value_at(flown.case, place + key)
                 if kind(comment) and value is not None:
                     found[place + key] = (kind(comment), place + key, told(value), comment, path.name)
-    order = dict(given=0, fitted=1, computed=2, assumed=3)
-    return sorted(found.values(), key=lambda row: order.get(row[0], 4))
+    order = dict(given=0, fitted=1, computed=2, derived=3, assumed=4)
+    return sorted(found.values(), key=lambda row: order.get(row[0], 5))
 
 
 def changed(flown):
