@@ -12,7 +12,7 @@ from monarch_flight.telling import say
 
 WINGS = ("right_wing", "left_wing")
 AIR = 0.5  # of rho U^2 / 2
-BAR = 0.82, 0.21, 0.16  # low end, width and height of a colour bar, as shares of the picture
+BARS = ((0.765, 0.82, 0.21, 0.16), (0.765, 0.69, 0.21, 0.16))  # left, low, width, height, as shares of the picture
 
 
 class Scales:
@@ -97,12 +97,13 @@ class Film:
 
     def add_legends(self, cp, omega):
         _, height = (self.stage.sharp * n for n in self.wanted["size"])
-        x = 0.765
+        shown = []
         if self.flight.pressure and self.wanted["wings"] == "pressure":
-            self.renderer.AddActor2D(scene.bar(cp, "pressure coefficient", self.theme[4], (x, *BAR), height))
-            x -= 0.25
+            shown.append((cp, "pressure coefficient"))
         if self.flight.flow:
-            self.renderer.AddActor2D(scene.bar(omega, "vorticity along the span [1/s]", self.theme[4], (x, *BAR), height))
+            shown.append((omega, "vorticity along the span [1/s]"))
+        for (colours, title), box in zip(shown, BARS):
+            self.renderer.AddActor2D(scene.bar(colours, title, self.theme[4], box, height))
         self.caption = scene.words("", int(0.034 * height), self.theme[4], 0.03 * height, 0.94 * height)
         self.renderer.AddActor2D(self.caption)
         note = scene.words(f"grid {1000 * self.grid:g} mm", int(0.024 * height), self.theme[4],
