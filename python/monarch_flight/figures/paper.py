@@ -270,10 +270,12 @@ def figure_dynamics(settings):
         chosen = [r for r in rows if r["quantity"].startswith(start)]
         n = [int(r["resolution"].split()[0]) for r in chosen]
         right.loglog(n, [r["error"] for r in chosen], "o-", label=start)
-    n = np.array([250, 2000])
+    ticks, n = n, np.array([250, 2000])
     right.loglog(n, 1e-3 * (250 / n) ** 2, color=GREY, ls="--", label="second order")
     right.loglog(n, 0.2 * 250 / n, color=GREY, ls=":", label="first order")
     right.set(xlabel="steps a flap", ylabel="relative error after a flap", title="Time stepping against order 8")
+    right.set_xticks(ticks, map(str, ticks))
+    right.minorticks_off()
     for axes in (left, right):
         axes.legend(fontsize=8)
     return figure
