@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QLabel>
 #include <QPushButton>
+#include <QScreen>
 #include <QSlider>
 #include <QSpinBox>
 #include <pluginlib/class_loader.hpp>
@@ -103,6 +104,18 @@ TEST_F(Panel, SlidersCommandWhereAPersonLeads) {
   ASSERT_TRUE(until([&] { return heard->amplitude < most; }));
   EXPECT_NEAR(0.5 * most, heard->amplitude, 0.02 * most);
   press("pause");
+}
+
+TEST_F(Panel, MakesTheWindowAsLargeAsTheScreenWhereItsFileSaysSo) {
+  const QSize screen = QGuiApplication::primaryScreen()->availableGeometry().size();
+  const auto filled = [&] {  // all but the frame of a window
+    return panel_->width() > 0.98 * screen.width() && panel_->height() > 0.9 * screen.height();
+  };
+  EXPECT_FALSE(until(filled, 0.5));
+  rviz::Config config;
+  config.mapSetValue("Fill Screen", true);
+  panel_->load(config);
+  EXPECT_TRUE(until(filled, 5.0)) << panel_->width() << " x " << panel_->height();
 }
 
 TEST_F(Panel, WithoutARunNothingCanBePressed) {
