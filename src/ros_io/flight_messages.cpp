@@ -71,7 +71,8 @@ geometry_msgs::Vector3Stamped wind(const Wind& met, const ros::Time& stamp) {
 }
 
 // In the wing's true axes.
-geometry_msgs::WrenchStamped wingWrench(const PerWing<Loads>& all, bool left, const ros::Time& stamp) {
+geometry_msgs::WrenchStamped wingWrench(const PerWing<Loads>& all, bool left,
+                                        const ros::Time& stamp) {
   const Loads loads = left ? mirrored(all.left) : all.right;
   geometry_msgs::WrenchStamped out;
   out.header.stamp = stamp;
