@@ -18,7 +18,7 @@ namespace {
 
 // The air flows faster round the wing's edges than the tip moves: largest Courant number of a
 // flight over that of the tip's speed, measured (docs/performance.md).
-constexpr double kFlowByTip = 1.6;
+constexpr double kFlowByTip = 1.65;
 constexpr double kMostMissed = 0.1;        // of the wing's area, by its staircase
 constexpr double kStartByExchange = 10.0;  // waits of the nodes for START over those for an answer
 // Evaluations of the air in a step with free coordinates (docs/coupling.md, `added_mass`).

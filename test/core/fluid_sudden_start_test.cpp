@@ -60,6 +60,31 @@ TEST(SuddenStart, FliesAtStepsThatCrossCellsOfTheRim) {
   }
 }
 
+/// What a plan expects (src/run/plan.cpp): the air is at most 1.65 times as fast as the wing, also
+/// behind the parts, when the vortex has grown that limits its speed round the rim.
+TEST(SuddenStart, TheVortexHasGrownWhenStepsAreTakenWhole) {
+  GridSettings settings = thinCells();
+  settings.cells_per_chord = 24;
+  const double speed = 3, cells = 1.75, dt = cells / (24 * speed);
+  const auto motion = [&](double t) {
+    WingMotion m;
+    m.R_IW = rotationY(M_PI / 4);
+    m.r_I = Eigen::Vector3d(speed * t, 0, 0);
+    m.v_W = m.R_IW.transpose() * Eigen::Vector3d(speed, 0, 0);
+    return m;
+  };
+  const auto flow = makeNavierStokes(Planform::ellipse(1.0, 2.0, 0.3), thinAir(), settings);
+  flow->start(motion(0), dt);
+  double most = 0;
+  for (int n = 1; n <= 36; ++n) {
+    flow->evaluate(motion(n * dt));
+    flow->commit();
+    most = std::max(most, flow->report().courant);
+  }
+  EXPECT_GT(most, 1.2 * cells);
+  EXPECT_LT(most, 1.65 * cells);
+}
+
 /// The parts of a step belong to its first evaluation: loads are affine in the wall's velocity.
 TEST(SuddenStart, LoadsOfAStepInPartsAreAffine) {
   const auto flow = makeNavierStokes(Planform::ellipse(1.0, 2.0, 0.3), thinAir(), thinCells());

@@ -1,5 +1,6 @@
 """What holds for an installed tree, wherever it lies."""
 import os
+import re
 import subprocess
 import tempfile
 
@@ -12,15 +13,16 @@ SAME = 1e-6  # of the largest entry of a column: sums in another order, and what
 
 
 def naming(prefix, folders):
-    """The files below `prefix` that hold the path of one of the folders, other than as a part of that of `prefix`."""
-    words = [os.fsencode(folder) for folder in folders]
+    """The files below `prefix` that hold the path of one of the folders, other than as a part of that of `prefix` or at
+    the beginning of another name: /source is not in /etc/apt/sources.list."""
+    words = [re.compile(re.escape(os.fsencode(folder)) + rb"(?![\w.-])") for folder in folders]
     found = []
     for place, _, names in os.walk(prefix):
         for path in (os.path.join(place, name) for name in names):
             if os.path.isfile(path):
                 with open(path, "rb") as file:
                     content = file.read().replace(os.fsencode(prefix), b"")
-                found += [path for word in words if word in content]
+                found += [path for word in words if word.search(content)]
     return sorted({os.path.relpath(path, prefix) for path in found})
 
 

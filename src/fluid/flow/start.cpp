@@ -13,7 +13,6 @@
 namespace monarch_flight::fluid {
 namespace {
 
-constexpr long kStartSteps = 10;      // in which a start at once is felt
 constexpr int kMostParts = 100;       // of a step
 constexpr double kEasyCourant = 1.0;  // of their parts
 constexpr double kMostGrowth = 2.0;   // of lengths, from one part to the next; BDF2 bears 2.4
@@ -96,14 +95,19 @@ void NavierStokes::setLevelBefore(const Eigen::Vector3d& V_dot, const Eigen::Vec
 }
 
 /// The air is fast round the rim of a wing that is set in motion at once, until a vortex has grown
-/// there. In the first steps, while what is left of a step takes it across more than a cell, parts
-/// of the step are taken before it; lengths at most double. In them the wing moves on to where the
-/// step's first evaluation has it, so that all evaluations of the step share them.
+/// there, which it has when the wing has moved by a chord. In as many steps as the chord has cells,
+/// while what is left of a step takes the air across more than a cell, parts of the step are taken
+/// before it; lengths at most double. In them the wing moves on to where the step's first
+/// evaluation has it, so that all evaluations of the step share them.
 void NavierStokes::easeIn(const WingMotion& next) {
   if (known_) return;  // nothing was set in motion
+  const Axis &x = grid_.x, &y = grid_.y;
+  const double cell = std::min(*std::min_element(x.width.begin(), x.width.end()),
+                               *std::min_element(y.width.begin(), y.width.end()));
+  const bool starts = steps_ * cell < reference_length_;
   for (int parts = 0;; ++parts) {
     double part = length_before_ > 0 ? kMostGrowth * length_before_ : length_;
-    if (steps_ < kStartSteps) {
+    if (starts) {
       convectingField(level_n_.grid);
       const double cells = courant();
       if (cells > kEasyCourant) part = std::min(part, length_ * kEasyCourant / cells);
