@@ -21,6 +21,7 @@ COMMANDS = {
     "identify": "finds parameters of a case from a measured angle",
     "settle": "tells whether a led flight has settled, and stores its periodic flight",
     "inverse-dynamics": "the torques that a flown motion needs, and the nearest spring",
+    "neighbours": "what the other wing and the body would change in a flight",
     "study-control": "studies how well a controller holds",
     "compare-coupling": "flies with every strategy of the coupling",
     "reduce-vicon": "reduces a measured flight to angles",

@@ -7,6 +7,8 @@ monarch verify [NAME ...]
   ones, which run without a name), plate_re100 rim stability monarch_flap outer, or all
 monarch verify dynamics [NAME ...]
   reduced exact momentum energy newmark published simbody; without a name all of them
+monarch verify neighbours
+  the estimate of what the other wing and the body would change (monarch neighbours); seconds, compiles nothing
 
 The core is compiled without ROS. The exit code is 0 only if every row is within its bound. What the files hold of
 other names is kept."""
@@ -46,11 +48,22 @@ def dynamics(names, values):
     return called(program, words)
 
 
+def neighbours(_, values):
+    preparing.installed("fly")
+    from monarch_flight.neighbours import table
+    return table.verified(values.get("out", "verification"))
+
+
+PARTS = {"flow": flow, "dynamics": dynamics, "neighbours": neighbours}
+
+
 def run(arguments):
     values, names, faults = KEYS.read(arguments.words, plain=True)
-    part = names[0] if names and names[0] in ("flow", "dynamics") else ""
-    if part == "dynamics" and "images" in values:
-        faults.append(f"images:={values['images']}: the dynamics have no plots of their own; leave it out")
+    part = names[0] if names and names[0] in PARTS else ""
+    if part in ("dynamics", "neighbours") and "images" in values:
+        faults.append(f"images:={values['images']}: the {part} have no plots of their own; leave it out")
+    if part == "neighbours" and names[1:]:
+        faults.append(f"{names[1]}: neighbours are verified as a whole; leave it out")
     if faults:
         raise keys.Refused(*faults)
-    return (dynamics if part == "dynamics" else flow)(names[bool(part):], values)
+    return PARTS[part or "flow"](names[bool(part):], values)
