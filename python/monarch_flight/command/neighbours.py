@@ -1,15 +1,15 @@
 """What the other wing and the body would change in a flight, which a flow of one wing leaves out.
 
-Takes the motion of the last flap of RUN (flight.csv) and computes the loads of a wing in potential flow, by vortex rings with a
-wake: alone, beside the other wing, beside the body. What differs is an estimate of what is not modelled
-(docs/validation.md). Prints a table and writes RUN/neighbours.csv. A minute or two."""
+Takes the motion of the last flap of RUN (flight.csv) and computes the loads of a wing in potential flow, by vortex
+rings with a wake: alone, beside the other wing, beside the body. What differs is an estimate of what is not
+modelled (docs/validation.md). Prints a table and writes RUN/neighbours.csv. About a minute."""
 from monarch_flight import keys, preparing
 from monarch_flight.keys import Key, Table
 
 SECTIONS = ("command",)
-KEYS = Table([Key("chordwise", "count", "rings along the chord", from_=3, to=20, default="8"),
-              Key("spanwise", "count", "rings along the span", from_=4, to=40, default="14"),
-              Key("steps", "count", "of a flap", from_=20, to=500, default="125"),
+KEYS = Table([Key("chordwise", "count", "rings along the chord", from_=3, to=20, default="6"),
+              Key("spanwise", "count", "rings along the span", from_=4, to=40, default="10"),
+              Key("steps", "count", "of a flap", from_=20, to=500, default="63"),
               Key("gap", "number", "distance from the mid-plane at which wings that would meet are bent aside", above=0,
                   unit="mm", default="1"),
               Key("core", "number", "of the vortices of the wake", above=0, unit="mean chords", default="0.1")])

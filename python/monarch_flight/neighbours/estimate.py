@@ -22,7 +22,9 @@ def bent(points, gap):
 
 
 class Estimate:
-    def __init__(self, flight, chordwise=8, spanwise=14, steps=100, gap=1e-3, core=0.1):
+    """The last two flaps of a flight, again in potential flow."""
+
+    def __init__(self, flight, chordwise=6, spanwise=10, steps=63, gap=1e-3, core=0.1):
         """core: of the wake's vortices, in mean chords; steps: of a flap."""
         self.flight, self.gap = flight, gap
         outline = flight.outline
@@ -63,7 +65,7 @@ class Estimate:
         return air @ flight.R_IB[row].T
 
     def fly(self, mirrored=False, body=False, kutta=True, sealed=False):
-        """Of the last flap, a row a step: force of the right wing, NED [N], and the moment about its hinge line [N m]."""
+        """Of the last flap, a row a step: force of the right wing, NED [N], and moment about its hinge line [N m]."""
         nodes, points = self.lattices[kutta]
         wing = wake.Wing(self.flight.density, self.core, mirrored, kutta, rows=int(1.5 * self.flap))
         loads = []

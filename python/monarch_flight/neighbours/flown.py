@@ -7,7 +7,7 @@ import yaml
 
 from monarch_flight.keys import Refused
 
-NAMES = ("t phase x y z qw qx qy qz phi psi theta_R my FX FZ".split())
+NAMES = "t phase x y z qw qx qy qz phi psi theta_R my FX FZ wx wy wz".split()
 
 
 class Outline:
@@ -105,6 +105,8 @@ class Flight:
             faults.append(f"{folder}: flown with wings:=independent; fly it with wings:=mirrored")
         if self.phase[-1] < 2.0:
             faults.append(f"{folder}: {self.phase[-1]:g} flaps: 2 or more are needed; fly it with flaps:=2")
+        if np.any(self.wx) or np.any(self.wy) or np.any(self.wz):
+            faults.append(f"{folder}: flown in wind; fly it in still air")
         if faults:
             raise Refused(*faults)
 

@@ -9,7 +9,8 @@ from monarch_flight.neighbours.estimate import VARIANTS, Estimate
 from monarch_flight.neighbours.flown import Flight, clearance
 
 TITLES = {"wing": "the other wing", "body": "the body's displacement", "both": "both",
-          "sealed": "the other wing, roots at the mid-plane", "wing, no wake": "the other wing, without a wake"}
+          "sealed": "the other wing, roots at the mid-plane",
+          "wing, no wake": "the other wing, without a wake"}
 UNSTABLE = 3.0  # times the flight's largest force
 
 
@@ -18,17 +19,18 @@ def told(folder, numbers):
     estimate = Estimate(flight, **numbers)
     place(flight, estimate)
     loads = estimate.all(tuple(name for name in VARIANTS if "no wake" in name))
-    attached = estimate.all(("alone",))["alone"]
+    with np.errstate(all="ignore"):  # where it is unstable
+        attached = estimate.all(("alone",))["alone"]
     rows = estimate.rows[-estimate.flap:]
     flown = np.hypot(flight.FX, flight.FZ)[rows]
-    stable = np.isfinite(attached).all() and 2 * np.hypot(attached[:, 0], attached[:, 2]).max() < UNSTABLE * flown.max()
+    stable = 2.0 * np.hypot(attached[:, 0], attached[:, 2]).max() < UNSTABLE * flown.max()  # false for nan, too
     if stable:
         loads["alone"] = attached
         loads.update(estimate.all(tuple(name for name in VARIANTS if name not in loads)))
         agreement(flight, rows, attached, flown)
     else:
-        print("in this motion the trailing edge leads for a while: its wake in potential flow is unstable, and only what has "
-              "no wake is told")
+        print("in this motion the wake comes too near to the wing for attached potential flow (the trailing edge\n"
+              "leads, or the wings would cross by far): only what has no wake is told")
     changes(flight, rows, loads)
     body_drag(flight)
     written(os.path.join(folder, "neighbours.csv"), flight.phase[rows], loads)
@@ -41,9 +43,10 @@ def place(flight, estimate):
     opening = np.degrees(2.0 * np.arcsin(flight.R_BW[rows][:, 1, 1]))
     up = flight.phi[rows] < 0.0
     near = clearance(flight, rows, inner=0.1)
-    print(f"smallest angle between the wings     {opening[up].min():.0f} deg above, {opening[~up].min():.0f} deg below the body")
-    print(f"smallest distance from the mid-plane {1e3 * near.min():.1f} mm, at phase {flight.phase[rows][near.argmin()] % 1.0:.2f}"
-          " (outside the inner tenth of the span)")
+    at = flight.phase[rows][near.argmin()] % 1.0
+    print(f"smallest angle between the wings      {opening[up].min():.0f} deg above, {opening[~up].min():.0f} deg below "
+          f"the body\nsmallest distance from the mid-plane  {1e3 * near.min():.1f} mm, at phase {at:.2f}, outside the inner "
+          "tenth of the span")
     if near.min() < 0.0:
         print(f"the flat wings pass through each other for {100 * (near < 0.0).mean():.0f} % of the flap")
 
@@ -51,34 +54,41 @@ def place(flight, estimate):
 def agreement(flight, rows, attached, flown):
     both = 2.0 * attached[:, [0, 2]]
     air = np.stack([flight.FX, flight.FZ], axis=-1)[rows]
-    print(f"forces of the flight / of this estimate, the wing alone: mean lift {-air[:, 1].mean() / flight.weight:.2f} / "
-          f"{-both[:, 1].mean() / flight.weight:.2f} weights, largest {flown.max() / flight.weight:.2f} / "
-          f"{np.hypot(*both.T).max() / flight.weight:.2f} weights, correlation {np.corrcoef(air.ravel(), both.ravel())[0, 1]:.2f}")
+    size, least = np.hypot(*both.T).max() / flight.weight, np.corrcoef(air.ravel(), both.ravel())[0, 1]
+    print(f"{'weights':38s}{'flight':>8s}{'here, wing alone':>18s}\n"
+          f"{'  mean lift':38s}{-air[:, 1].mean() / flight.weight:8.2f}{-both[:, 1].mean() / flight.weight:18.2f}\n"
+          f"{'  largest force':38s}{flown.max() / flight.weight:8.2f}{size:18.2f}\n"
+          f"{'  correlation of the forces':38s}{'':8s}{least:18.2f}")
 
 
 def changes(flight, rows, loads):
     peak, hinge = 0.5 * np.hypot(flight.FX, flight.FZ)[rows].max(), np.abs(flight.my[rows]).max()
-    print(f"\n{'what is left out':40s} {'mean lift':>10s} {'thrust':>10s} {'largest':>10s} {'at phase':>10s} {'rms':>10s} {'hinge':>10s}")
-    print(f"{'':40s} {'% weight':>10s} {'% weight':>10s} {'% of peak':>10s} {'':>10s} {'% of peak':>10s} {'% of peak':>10s}")
+    heads = ("mean lift", "thrust", "largest", "at phase", "rms", "hinge")
+    units = ("% weight", "% weight", "% of peak", "", "% of peak", "% of peak")
+    print()
+    for words, title in ((heads, "what is left out"), (units, "")):
+        print(f"{title:40s}" + "".join(f"{word:>10s}" for word in words))
     for name, title in TITLES.items():
         if name not in loads:
             continue
-        base = loads["alone, no wake"] if "no wake" in name else loads["alone"]
-        more = loads[name] - base
+        more = loads[name] - (loads["alone, no wake"] if "no wake" in name else loads["alone"])
         size = np.hypot(more[:, 0], more[:, 2])
-        print(f"{title:40s} {-200 * more[:, 2].mean() / flight.weight:10.1f} {200 * more[:, 0].mean() / flight.weight:10.1f} "
-              f"{100 * size.max() / peak:10.1f} {flight.phase[rows][size.argmax()] % 1.0:10.2f} "
-              f"{100 * np.sqrt((size ** 2).mean()) / peak:10.1f} {100 * np.abs(more[:, 3]).max() / hinge:10.1f}")
+        numbers = (-200.0 * more[:, 2].mean() / flight.weight, 200.0 * more[:, 0].mean() / flight.weight,
+                   100.0 * size.max() / peak, flight.phase[rows][size.argmax()] % 1.0,
+                   100.0 * np.sqrt((size ** 2).mean()) / peak, 100.0 * np.abs(more[:, 3]).max() / hinge)
+        print(f"{title:40s}" + "".join(f"{number:10.{2 if k == 3 else 1}f}" for k, number in enumerate(numbers)))
 
 
 def body_drag(flight):
     insect = flight.case["insect"]
     speed2 = np.mean(np.gradient(flight.x, flight.t) ** 2 + np.gradient(flight.z, flight.t) ** 2)
     drag = 0.5 * flight.density * speed2 * 0.25 * np.pi * insect["body"]["width"] ** 2
-    print(f"\nthe body's own drag, with a coefficient of 1 on its frontal area: {100 * drag / flight.weight:.1f} % of the weight")
+    share = 100.0 * drag / flight.weight
+    print(f"\nthe body's own drag, with a coefficient of 1 on its frontal area: {share:.1f} % of the weight")
 
 
 def written(path, phase, loads):
+    """Forces of both wings, NED [N], hinge moment of one [N m]."""
     names = [f"{part} {name}" for name in loads for part in ("FX", "FZ", "hinge")]
     with open(path + ".active", "w", encoding="utf-8", newline="") as file:
         lines = csv.writer(file)
