@@ -6,7 +6,7 @@ modelled (docs/validation.md). Prints a table and writes RUN/neighbours.csv. Abo
 from monarch_flight import keys, preparing
 from monarch_flight.keys import Key, Table
 
-SECTIONS = ("command",)
+SECTIONS = ("fly",)
 KEYS = Table([Key("chordwise", "count", "rings along the chord", from_=3, to=20, default="6"),
               Key("spanwise", "count", "rings along the span", from_=4, to=40, default="10"),
               Key("steps", "count", "of a flap", from_=20, to=500, default="63"),
