@@ -57,7 +57,9 @@ class Exact(unittest.TestCase):
 class Flights(unittest.TestCase):
     def folder(self, phi, flaps=2.0, wings="mirrored", **angles):
         """A flight whose right wing, a rectangle of 40 mm by 20 mm, stands still at this angle in a body that glides."""
-        folder = pathlib.Path(tempfile.mkdtemp())
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        folder = pathlib.Path(place.name)
         planform = {"type": "rectangle", "chord": 0.02, "span": 0.04, "hinge": 0.25, "root_offset": 0.0}
         part = {"mass": 1e-4, "length": 0.01, "width": 0.005}
         case = {"wings": wings, "fluid": {"density": 1.2, "gravity": 9.81}, "insect": {
