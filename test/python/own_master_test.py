@@ -43,6 +43,11 @@ class OwnMaster(unittest.TestCase):
         self.assertEqual(said.count("\n"), 1)
         self.assertTrue(nodes.port)
 
+    def test_machine_without_the_name_localhost(self):
+        self.assertIsNone(flight.nameless())
+        with mock.patch.object(flight.socket, "getaddrinfo", side_effect=flight.socket.gaierror):
+            self.assertIn("to /etc/hosts", flight.nameless())
+
     def test_master_that_runs(self):
         nodes, said = self.nodes(answers=True, ROS_MASTER_URI=URI, ROS_HOSTNAME="butterfly")
         self.assertEqual((nodes.port, said), (0, ""))

@@ -2,6 +2,7 @@
 import os
 import shlex
 import shutil
+import socket
 import sys
 import tempfile
 
@@ -36,6 +37,15 @@ def own_master(base, uri):
     unused = [f"{name}={base[name]}" for name in ("ROS_HOSTNAME", "ROS_IP") if base.get(name, "localhost") not in LOCAL]
     return (f"fly: {dead}the flight has a master of its own and is seen from this machine only; for other machines: docs/usage.md, "
             "another machine" + (" (" + ", ".join(unused) + " is for a master that runs already)" if unused else ""))
+
+
+def nameless():
+    """Why roslaunch can start nothing on this machine; None: it can. It looks its own machine up as localhost."""
+    try:
+        socket.getaddrinfo("localhost", None)
+    except OSError:
+        return "this machine does not know the name localhost, which roslaunch needs: add the line '127.0.0.1 localhost' to /etc/hosts"
+    return None
 
 
 class Nodes:
@@ -87,6 +97,10 @@ def fly(request, stop, command_name):
     begin = now()
     ending = Ending(request, begin, command_name)
     os.environ["MONARCH_GO_ON"] = ending.again()  # for the advice of the program that flies
+    why_not = None if request.in_process else nameless()
+    if why_not:
+        say(why_not)
+        return REFUSED
     chosen = in_process(request) if request.in_process else over_nodes(request)
     if chosen is None:
         return FAILED
