@@ -19,7 +19,8 @@ def guidance(g):
 def table(s):
     """(name, text) rows of a summary.json."""
     sub, wall = s["sub_iterations"], s["wall_s"]
-    yield "steps", "%d (%g flaps), %d at the second attempt" % (s["steps"], s["flaps"], s["retried_steps"])
+    flaps = "1 flap" if s["flaps"] == 1 else "%g flaps" % s["flaps"]
+    yield "steps", "%d (%s), %d at the second attempt" % (s["steps"], flaps, s["retried_steps"])
     for remark in s.get("remarks", []):
         yield "note", remark
     if s.get("tumbled_from_flap") is not None:
