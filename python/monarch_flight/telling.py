@@ -15,8 +15,10 @@ def say(text, who="fly"):
 
 
 def called_as(name):
-    """How the person calls the command, for advice: scripts/fly says who it is."""
-    return os.environ.get("MONARCH_CALLED_AS", "monarch fly") if name == "fly" else f"monarch {name}"
+    """How the person calls the command, for advice: scripts/fly says who it is, and scripts/monarch is seen."""
+    monarch = sys.argv[0] if sys.argv[0] in ("scripts/monarch", "./scripts/monarch", "./monarch") else "monarch"
+    own = os.environ.get("MONARCH_CALLED_AS") if name == "fly" else None
+    return own or f"{monarch} {name}"
 
 
 def signal_of(code):

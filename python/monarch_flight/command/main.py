@@ -47,6 +47,10 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, **options):
         super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, **options)
 
+    def error(self, message):
+        keyed = message.startswith("unrecognized arguments: --") and "key:=value" in (self.epilog or "")
+        super().error(message + ("; a key is written key:=value, without --" if keyed else ""))
+
 
 def overview():
     width = max(map(len, COMMANDS)) + 2
@@ -63,7 +67,7 @@ def parsed(module, name, words):
     """The arguments. Words behind -- are for another program, and all of them where the module passes them on."""
     mark = words.index("--") if "--" in words else len(words)
     own, others = words[:mark], words[mark + 1:]
-    parser = Parser(prog="monarch " + name, description=module.__doc__)
+    parser = Parser(prog=telling.called_as(name), description=module.__doc__)
     module.add_arguments(parser)
     if getattr(module, "PASSES_ON", False):
         arguments = parser.parse_args([word for word in words if word in ("-h", "--help")])

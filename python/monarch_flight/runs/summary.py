@@ -5,7 +5,8 @@ import sys
 
 
 def spread(values, form):
-    return "mean %s, from %s to %s" % tuple(form % values[key] for key in ("mean", "min", "max"))
+    texts = (form % values[key] for key in ("mean", "min", "max"))
+    return "mean %s, from %s to %s" % tuple(form % 0 if float(text) == 0 else text for text in texts)  # no -0.0
 
 
 def guidance(g):
@@ -18,7 +19,8 @@ def guidance(g):
 def table(s):
     """(name, text) rows of a summary.json."""
     sub, wall = s["sub_iterations"], s["wall_s"]
-    yield "steps", "%d (%g flaps), %d at the second attempt" % (s["steps"], s["flaps"], s["retried_steps"])
+    flaps = "1 flap" if s["flaps"] == 1 else "%g flaps" % s["flaps"]
+    yield "steps", "%d (%s), %d at the second attempt" % (s["steps"], flaps, s["retried_steps"])
     for remark in s.get("remarks", []):
         yield "note", remark
     if s.get("tumbled_from_flap") is not None:
@@ -29,8 +31,9 @@ def table(s):
     if s.get("guidance", {"type": "motion"})["type"] != "motion":
         yield "guidance", guidance(s["guidance"])
     yield "sub-iterations", "mean %.1f, at most %d" % (sub["mean"], sub["max"])
-    yield "air", "%.2f evaluations a step, added-mass ratio up to %.2f" % (s["fluid_evaluations"]["mean"],
-                                                                           s["added_mass_ratio"]["max"])
+    if s.get("free_steps", 1):  # where nothing is free, nothing is solved
+        yield "air", "%.2f evaluations a step, added-mass ratio up to %.2f" % (s["fluid_evaluations"]["mean"],
+                                                                               s["added_mass_ratio"]["max"])
     yield "climb angle", "%.1f deg" % s["climb_angle_deg"]
     yield "speed", "%.3f m/s" % s["speed_m_s"]
     yield "body pitch", spread(s["theta_B_deg"], "%.1f") + " deg"
