@@ -26,10 +26,7 @@ FlightRun::FlightRun(const Case& c, const std::string& out, bool resume, int ran
   std::cout << "case " << c.name << ": " << c.time.steps << " steps of " << c.time.dt
             << " s; results in " << out << std::endl;
   for (const std::string& remark : runRemarks(c, c.time.steps)) std::cout << remark << std::endl;
-  if (checkpoints_.resumption()) {
-    progress_.resumeAt(checkpoints_.resumption()->step);
-    tell();
-  }
+  if (checkpoints_.resumption()) tell();
 }
 
 void FlightRun::openBag(std::vector<MessageOutput*>& listeners) {

@@ -214,9 +214,9 @@ std::string describe(const RunPlan& p) {
   if (p.ranks_here < p.ranks) text << " here, where " << p.ranks_here << " of the processes are";
   text << '\n'
        << "time: set-up " << timeText(p.setup_s) << ", " << p.steps << " steps of "
-       << timeText(p.step_s) << " (" << p.evaluations << " evaluations of the air, " << p.ranks
-       << (p.ranks == 1 ? " process, " : " processes, ") << p.threads
-       << (p.threads == 1 ? " thread): " : " threads each): ") << timeText(p.run_s())
+       << timeText(p.step_s) << " as measured just now (" << p.evaluations
+       << " evaluations of the air, " << p.ranks << (p.ranks == 1 ? " process, " : " processes, ")
+       << p.threads << (p.threads == 1 ? " thread): " : " threads each): ") << timeText(p.run_s())
        << "; nodes and several processes need watchdog_s >= " << p.watchdogNeeded() << "\n";
   return text.str();
 }

@@ -1,4 +1,6 @@
 // Files of a run: tables, summary, hash, progress line.
+#include <thread>
+
 #include "monarch_flight/run/progress.h"
 #include "run_files_fixture.h"
 
@@ -253,6 +255,20 @@ TEST(Progress, PlainLineAfterEveryTenth) {
   EXPECT_NE(text[9].find("100 %  flap 2.50/2.5  step 25/25  sub-iterations 4  left 0:00"),
             std::string::npos);
   EXPECT_EQ(stream.str().find('\r'), std::string::npos);
+}
+
+/// What came before the first step that it hears of, as a set-up, is not counted.
+TEST(Progress, OfARunThatGoesOnCountsFromItsFirstStep) {
+  std::ostringstream stream;
+  ProgressSink sink(stream, false, {0.1, 0.0, 0.01, 100});
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  for (std::uint32_t n = 41; n <= 50; ++n) sink.onStep(stepAt(n));
+  const auto text = lines(stream.str());
+  ASSERT_FALSE(text.empty());
+  std::istringstream last(text.back().substr(text.back().find("left 0:00") + 9));
+  double of_real_time = 0;
+  ASSERT_TRUE(last >> of_real_time) << text.back();
+  EXPECT_GT(of_real_time, 9 * 0.01 / 0.2);  // it would be less with the 200 ms
 }
 
 TEST(Progress, RedrawsOneLineOnATerminal) {

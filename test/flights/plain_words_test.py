@@ -31,7 +31,7 @@ class PlainWords(flying.FlightTest):
 
     def test_a_run_in_which_nothing_is_ever_free(self):
         told, output = self.flown("short", "flaps:=0.02")
-        words = "nothing is ever free: all 10 steps follow the motion (coupling/prescribed_steps = 10)"
+        words = "nothing is ever free: all 10 steps follow the motion, as the first 10 of this case do"
         self.assertEqual(output.count(words), 2, output)  # before and after
         self.assertEqual((told["steps"], told["free_steps"]), (10, 0))
         self.assertIn(words, told["remarks"][0])

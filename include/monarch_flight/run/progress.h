@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -17,8 +18,6 @@ class ProgressSink : public StepSink {
  public:
   /// `out` must outlive the sink; `terminal` says whether a line can be redrawn on it.
   ProgressSink(std::ostream& out, bool terminal, const TimeGrid& time);
-  /// Of a run that goes on after a step.
-  void resumeAt(std::uint32_t step) { first_ = step; }
   void onStep(const CommittedStep& step) override;
   void onReset() override;
   void onEnd(const std::string& failure) override;
@@ -31,8 +30,8 @@ class ProgressSink : public StepSink {
   TimeGrid time_;
   std::chrono::steady_clock::time_point begin_, drawn_;
   std::uint32_t next_tenth_ = 1;
-  std::uint32_t first_ = 0;  // step that was there at begin_
-  std::size_t width_ = 0;    // of the line on the terminal
+  std::optional<std::uint32_t> first_;  // step at begin_: 0, or the first after a resumption
+  std::size_t width_ = 0;               // of the line on the terminal
 };
 
 }  // namespace monarch_flight

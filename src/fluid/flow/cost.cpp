@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCellsPerChord = 9;  // of the coarse grid: some ten thousand cells
 constexpr double kFiner = 1.25;       // where that does not resolve the wing
-constexpr int kSteps = 5;             // that are timed, the best of them counts
+constexpr int kSteps = 20;            // that are timed, the best of them counts
 
 // Measured, docs/performance.md ("Cost model").
 constexpr double kBytesPerCell = 178;        // 20 fields, ghosts and padding

@@ -25,13 +25,14 @@ std::string clockText(double seconds) {
 }
 
 ProgressSink::ProgressSink(std::ostream& out, bool terminal, const TimeGrid& time)
-    : out_(out), terminal_(terminal), time_(time), begin_(std::chrono::steady_clock::now()) {}
+    : out_(out), terminal_(terminal), time_(time) {}
 
 void ProgressSink::onStep(const CommittedStep& step) {
   const auto now = std::chrono::steady_clock::now();
-  if (step.step == 0) {
+  if (!first_) {
+    first_ = step.step;
     begin_ = now;
-    return;
+    if (step.step < time_.steps) return;
   }
   if (terminal_) {
     if (step.step != time_.steps && now - drawn_ < kRedraw) return;
@@ -49,7 +50,7 @@ void ProgressSink::onStep(const CommittedStep& step) {
 
 void ProgressSink::onReset() {
   next_tenth_ = 1;
-  first_ = 0;
+  first_.reset();
   if (!terminal_) out_ << "set back to the start" << std::endl;
 }
 
@@ -72,7 +73,7 @@ std::string ProgressSink::line(const CommittedStep& step) const {
   }
   std::snprintf(rest, sizeof rest, "step %u/%u  sub-iterations %zu  left ", step.step, time_.steps,
                 step.iterations.size());
-  const double flown = step.step - first_, left = time_.steps - step.step;
+  const double flown = step.step - *first_, left = time_.steps - step.step;
   text += rest + clockText(elapsed * left / std::max(flown, 1.0));
   std::snprintf(rest, sizeof rest, "  %.2g of real time",
                 flown * time_.dt / std::max(elapsed, 1e-9));

@@ -39,8 +39,9 @@ std::vector<std::string> runRemarks(const Case& c, std::uint32_t steps) {
   const int prescribed = c.coupling.prescribed_steps;
   if (c.free.count() > 0 && steps > 0 && std::int64_t{steps} <= prescribed) {
     remarks.push_back("nothing is ever free: all " + std::to_string(steps) +
-                      " steps follow the motion (coupling/prescribed_steps = " +
-                      std::to_string(prescribed) + "); fly more steps than that, or lower it");
+                      " steps follow the motion, as the first " + std::to_string(prescribed) +
+                      " of this case do (coupling/prescribed_flaps or prescribed_steps); fly more "
+                      "steps than that, or lower it");
   }
   const std::string hinge = hingeRemark(c);
   if (!hinge.empty()) remarks.push_back(hinge);
