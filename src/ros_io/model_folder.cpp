@@ -3,8 +3,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <regex>
 #include <vector>
 
+#include "monarch_flight/ros_io/token_file.h"
 #include "monarch_flight/run/sha256.h"
 #include "monarch_flight/viz/urdf.h"
 
@@ -14,10 +17,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kKept = std::chrono::hours(24 * 30);
-constexpr char kModel[] = "model-", kToken[] = "token_";  // begins of names
+constexpr std::size_t kHash = 12;  // digits of it in a folder's name
 
-bool begins(const fs::path& path, const std::string& with) {
-  return path.filename().string().rfind(with, 0) == 0;
+bool isModel(const fs::path& folder) {
+  static const std::regex name("model-.+-[0-9a-f]{" + std::to_string(kHash) + "}");
+  return std::regex_match(folder.filename().string(), name);
+}
+
+/// Not one that a person has made.
+bool isTokenOfOneRun(const fs::path& path) {
+  if (path.filename().string().rfind("token_", 0) != 0) return false;
+  std::ifstream file(path);
+  std::string secret;
+  std::getline(file, secret);
+  return madeByACoordinator(secret);
 }
 
 bool isOld(const fs::path& path) {
@@ -47,9 +60,8 @@ void removeOld(const fs::path& place) {
   for (const auto& entry : fs::directory_iterator(place, failed)) {
     const fs::file_type type = entry.symlink_status(failed).type();
     if (failed || !isOld(entry.path())) continue;
-    if (type == fs::file_type::directory && begins(entry.path(), kModel))
-      models.push_back(entry.path());
-    if (type == fs::file_type::regular && begins(entry.path(), kToken))
+    if (type == fs::file_type::directory && isModel(entry.path())) models.push_back(entry.path());
+    if (type == fs::file_type::regular && isTokenOfOneRun(entry.path()))
       tokens.push_back(entry.path());
   }
   for (const fs::path& model : models) removeModel(model);
@@ -68,7 +80,7 @@ std::string keptModel(const Case& c, const std::string& home) {
   const fs::path place = fs::path(home) / "monarch_flight";
   // By what it looks like: two cases of one name may differ.
   const fs::path folder =
-      place / (kModel + c.name + "-" + sha256Hex(insectUrdf(c.insect, "")).substr(0, 12));
+      place / ("model-" + c.name + "-" + sha256Hex(insectUrdf(c.insect, "")).substr(0, kHash));
   std::error_code failed;
   fs::create_directories(folder, failed);
   fs::last_write_time(folder, fs::file_time_type::clock::now(), failed);  // before others look

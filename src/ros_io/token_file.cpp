@@ -82,8 +82,6 @@ Descriptor opened(const std::string& path) {
   return file;
 }
 
-bool madeByACoordinator(const std::string& secret) { return secret.rfind(kOfOneRun, 0) == 0; }
-
 /// Whether the coordinator that has made it still holds it: the lock goes with its process.
 bool held(const Descriptor& file) {
   const bool free = ::flock(file.number(), LOCK_SH | LOCK_NB) == 0;
@@ -146,6 +144,8 @@ bool replaced(const Descriptor& old, const std::string& path, const NewFile& mad
 }
 
 }  // namespace
+
+bool madeByACoordinator(const std::string& secret) { return secret.rfind(kOfOneRun, 0) == 0; }
 
 Descriptor::~Descriptor() {
   if (number_ >= 0) ::close(number_);

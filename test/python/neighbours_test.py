@@ -1,5 +1,7 @@
 """The estimate of what the other wing and the body would change: exact solutions, and the geometry of a flight."""
+import contextlib
 import csv
+import io
 import pathlib
 import sys
 import tempfile
@@ -15,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 if np:
     from monarch_flight import keys
-    from monarch_flight.neighbours import estimate, exact, flown, lattice
+    from monarch_flight.neighbours import estimate, exact, flown, lattice, table
 
 
 @unittest.skipUnless(np, "needs scripts/install check")
@@ -67,11 +69,11 @@ class Flights(unittest.TestCase):
             "wing": {"mass": 1e-5, "root": [0.0, 0.003, 0.0], "planform": planform}}}
         (folder / "case.yaml").write_text(yaml.safe_dump(case), encoding="utf-8")
         with open(folder / "flight.csv", "w", encoding="utf-8") as file:
-            table = csv.DictWriter(file, flown.NAMES)
-            table.writeheader()
+            lines = csv.DictWriter(file, flown.NAMES)
+            lines.writeheader()
             for k in range(int(round(40 * flaps)) + 1):
                 state = dict(t=k / 400, phase=k / 40, qw=1.0, phi=phi, x=k / 400, z=k / 4000)
-                table.writerow(dict.fromkeys(flown.NAMES, 0.0) | state | angles)
+                lines.writerow(dict.fromkeys(flown.NAMES, 0.0) | state | angles)
         return str(folder)
 
     def test_where_the_wing_is(self):
@@ -122,6 +124,27 @@ class Flights(unittest.TestCase):
                 flown.Flight(self.folder(0.0, **options))
         with self.assertRaisesRegex(keys.Refused, "give the folder of a flight"):
             flown.Flight("/nowhere")
+
+    def test_a_flight_that_was_lost_is_refused(self):
+        folder = pathlib.Path(self.folder(0.0))
+        for text in ("", ",".join(flown.NAMES) + "\n", "t,phase\n0,2\n"):
+            (folder / "flight.csv").write_text(text, encoding="utf-8")
+            with self.assertRaisesRegex(keys.Refused, "fly it again"):
+                flown.Flight(str(folder))
+
+    def test_the_table(self):
+        folder = self.folder(0.0, FZ=-1e-3, my=1e-5)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            self.assertEqual(table.told(folder, dict(chordwise=3, spanwise=4, steps=20)), 0)
+        for title in table.TITLES.values():
+            self.assertIn(title, said.getvalue())
+        self.assertNotIn("nan", said.getvalue())
+        with open(folder + "/neighbours.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 20)
+        for name in ("FZ_alone", "hinge_sealed", "FX_wing_no_wake"):
+            self.assertIn(name, rows[0])
+        self.assertLess(float(rows[-1]["FZ_wing"]), float(rows[-1]["FZ_alone"]))  # NED: up
 
 
 if __name__ == "__main__":

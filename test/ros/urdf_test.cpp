@@ -179,21 +179,25 @@ TEST(Urdf, ModelsThatNobodyUsesAnyMoreAreRemoved) {
                  used = usedBefore(place / "model-b-0123456789ab", 29, "right_wing.stl"),
                  precious = usedBefore(place / "model-c-0123456789ab", 31, "precious.txt"),
                  others = usedBefore(place / "mine", 31, "right_wing.stl"),
+                 mine = usedBefore(place / "model-mine", 31, "right_wing.stl"),
                  elsewhere = usedBefore(folder / "model-d-0123456789ab", 31, "right_wing.stl");
   fs::create_directory_symlink(elsewhere, place / "model-e-0123456789ab");
-  const auto token = [&place](const std::string& name, int days) {
-    std::ofstream(place / name) << "of one run: ";
+  const auto token = [&place](const std::string& name, int days,
+                              const char* secret = "of one run: 0123456789abcdef") {
+    std::ofstream(place / name) << secret << '\n';
     fs::last_write_time(place / name,
                         fs::file_time_type::clock::now() - std::chrono::hours(24 * days));
     return place / name;
   };
-  const fs::path killed = token("token_a_1", 31), running = token("token_a_2", 0);
+  const fs::path killed = token("token_a_1", 31), running = token("token_a_2", 0),
+                 own = token("token_of_mine", 31, "0123456789abcdef0123456789abcdef");
   const fs::path again = keptModel(climb(), home);
   EXPECT_TRUE(fs::exists(again / "left_wing.stl"));
   EXPECT_FALSE(fs::exists(old));
   EXPECT_FALSE(fs::exists(killed));
-  for (const fs::path& kept : {used / "right_wing.stl", precious / "precious.txt",
-                               others / "right_wing.stl", elsewhere / "right_wing.stl", running})
+  for (const fs::path& kept :
+       {used / "right_wing.stl", precious / "precious.txt", others / "right_wing.stl",
+        mine / "right_wing.stl", elsewhere / "right_wing.stl", running, own})
     EXPECT_TRUE(fs::exists(kept)) << kept;
   // One that is used again is as good as new.
   fs::last_write_time(again, fs::file_time_type::clock::now() - std::chrono::hours(24 * 31));

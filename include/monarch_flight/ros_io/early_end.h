@@ -29,9 +29,9 @@ class EarlyEnd {
 };
 
 /// This node has found a fault of the run's parameters or case, which the coordinator reads, too:
-/// one message is enough. Waits up to some seconds for the coordinator, and throws an InputError
-/// that points to its message where it has refused the run; returns where it has not, or nobody
-/// knows (nodes started by hand).
+/// one message is enough. Waits for the coordinator, a few seconds at most, and throws an
+/// InputError that points to its message where it has refused the run; returns where it has not, or
+/// nobody knows (nodes started by hand).
 void leaveFaultToCoordinator(const std::string& space);
 
 }  // namespace monarch_flight

@@ -13,6 +13,9 @@ namespace monarch_flight {
 /// by everybody.
 constexpr char kTokenFileKey[] = "token_file";
 
+/// Whether a coordinator has made the file that holds this; else a person has.
+bool madeByACoordinator(const std::string& secret);
+
 /// An open file, closed with the object; a negative number: none.
 class Descriptor {
  public:

@@ -73,7 +73,7 @@ class Estimate:
             here, velocity = self.moving(points, row, sealed)
             rings, _ = self.moving(nodes, row, sealed)
             stream = self.drives(here, row) if body else None
-            force, normal, _ = wing.step(rings, here, velocity, self.dt, stream)
+            force, normal = wing.step(rings, here, velocity, self.dt, stream)
             vector = force[..., None] * normal
             arm = here - self.flight.in_air(self.place(np.zeros(3), row, sealed), row)
             axis = self.flight.R_IB[row] @ self.flight.R_BW[row][:, 1]
@@ -81,5 +81,5 @@ class Estimate:
             loads.append([*vector.sum(axis=(0, 1)), hinge])
         return np.array(loads)[-self.flap:]
 
-    def all(self, variants=tuple(VARIANTS)):
+    def all(self, variants):
         return {name: self.fly(**VARIANTS[name]) for name in variants}

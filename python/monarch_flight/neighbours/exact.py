@@ -119,7 +119,7 @@ def force_and_energy(distance, dt=1e-3, change=1e-3):
     velocity[..., 1] = -1.0
     for k in (0, 1):
         place = distance - dt * (k - 0.5)
-        force, normal, _ = wing.step(facing(nodes, place), facing(points, place), velocity, dt)
+        force, normal = wing.step(facing(nodes, place), facing(points, place), velocity, dt)
     slope = (broadside(nodes, points, distance + change) - broadside(nodes, points, distance - change)) / (2 * change)
     return (force * normal[..., 1]).sum(), -0.5 * slope
 

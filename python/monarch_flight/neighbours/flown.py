@@ -81,6 +81,9 @@ class Flight:
             self.case = yaml.safe_load(file)
         with open(os.path.join(folder, "flight.csv"), encoding="utf-8") as file:
             table = list(csv.DictReader(file))
+        missing = [name for name in NAMES if not table or name not in table[0]]
+        if missing:
+            raise Refused(f"{folder}: flight.csv has no row with {missing[0]}; fly it again")
         for name in NAMES:
             setattr(self, name, np.array([float(row[name]) for row in table]))
         self.require(folder)

@@ -115,10 +115,9 @@ def unit_solutions(nodes, points, columns, mirrored=False):
     return np.linalg.solve(matrix, columns)
 
 
-def added_mass(nodes, points, density, mirrored=False):
-    """3x3, of a flat plate in wing axes, for its velocity along z and its rates about x and y; a plate that moves
-    with its mirror image where `mirrored` (then the plate must be placed beside the plane y = 0: see place())."""
+def added_mass(nodes, points, density):
+    """3x3, of a flat plate alone, wing axes, for its velocity along z and its rates about x and y."""
     flat = points.reshape(-1, 3)
     modes = np.stack([np.ones(len(flat)), flat[:, 1], -flat[:, 0]], axis=1)
     _, area = normals_and_areas(nodes)
-    return density * (modes * area.reshape(-1, 1)).T @ unit_solutions(nodes, points, modes, mirrored)
+    return density * (modes * area.reshape(-1, 1)).T @ unit_solutions(nodes, points, modes)

@@ -44,9 +44,9 @@ def place(flight, estimate):
     up = flight.phi[rows] < 0.0
     near = clearance(flight, rows, inner=0.1)
     at = flight.phase[rows][near.argmin()] % 1.0
-    print(f"smallest angle between the wings      {opening[up].min():.0f} deg above, {opening[~up].min():.0f} deg below "
-          f"the body\nsmallest distance from the mid-plane  {1e3 * near.min():.1f} mm, at phase {at:.2f}, outside the inner "
-          "tenth of the span")
+    sides = [f"{opening[side].min():.0f} deg {where}" for side, where in ((up, "above"), (~up, "below")) if side.any()]
+    print(f"smallest angle between the wings      {', '.join(sides)} the body\n"
+          f"smallest distance from the mid-plane  {1e3 * near.min():.1f} mm, at phase {at:.2f}, outside the inner tenth of the span")
     if near.min() < 0.0:
         print(f"the flat wings pass through each other for {100 * (near < 0.0).mean():.0f} % of the flap")
 

@@ -6,7 +6,6 @@ import numpy as np
 
 from monarch_flight.neighbours import lattice
 
-
 BEHIND = 0.25  # where the vortex of a step stands, between the trailing edge's places now and a step ago
 OLD = 20  # steps until a vortex of the wake has its whole core: at the trailing edge none, or Kutta's condition fails
 
@@ -22,7 +21,7 @@ class Wing:
         self.before = None  # circulation of the wing at the step before
 
     def step(self, nodes, points, velocity, dt, stream=None):
-        """Loads after dt at this place: force [N] on each ring along its normal, the normals, the circulations.
+        """Loads after dt at this place: force [N] on each ring along its normal, and the normals.
         velocity: of the points; stream: velocity of the air at the points that others cause."""
         normal, area = lattice.normals_and_areas(nodes)
         m, n = area.shape
@@ -46,7 +45,7 @@ class Wing:
         last = circulation[-1:]
         self.strength = last if self.strength is None else np.concatenate([last, self.strength])[:self.rows]
         self.rear, self.before = nodes[-1], circulation
-        return force, normal, circulation
+        return force, normal
 
     def lead(self, rear):
         """A new row of nodes of the wake."""
@@ -71,6 +70,7 @@ class Wing:
             vortex = part[None, :, None] * (columns[:, side][..., None] * along_x[:, side])
             force -= self.density * (np.cross(relative, vortex) * normal).sum(axis=-1)
         return force
+
 
 def shares(count):
     """How the vortices between rings bear on the rings of either side: half and half, at a rim all on one."""

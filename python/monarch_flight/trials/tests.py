@@ -10,6 +10,7 @@ from monarch_flight import preparing
 
 # Whole flights, processes of MPI, and tests that count or limit memory are for the usual build.
 UNSANITIZED = ["-LE", "flight|python", "-E", "parallel|allocation|lost_memory|fluid_hung|fluid_blas"]
+UNITY = re.compile(r"/Unity/unity_\d+_\w+\.\w+$")
 SUMMARY = re.compile(r"^.* tests passed, (\d+) tests failed out of (\d+)$", re.MULTILINE)
 
 
@@ -21,9 +22,22 @@ def system_path():
     return "/usr/bin:" + os.environ.get("PATH", "")
 
 
+def apart(command):
+    """A command of compile_commands.json as one a source: those that are compiled together (MONARCH_UNITY) stand as #include
+    in a file that cmake makes."""
+    if not UNITY.search(command["file"]):
+        return [command]
+    text = pathlib.Path(command["file"]).read_text(encoding="utf-8")
+    return [dict(command, file=file, command=command["command"].replace(command["file"], file))
+            for file in re.findall(r'^#include "(.+)"$', text, re.MULTILINE)]
+
+
 def sources(build, folder):
-    """What is compiled of a folder."""
+    """What is compiled of a folder; how, stands in lint/compile_commands.json of the build then."""
     commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
+    commands = [one for command in commands for one in apart(command)]
+    (build / "lint").mkdir(exist_ok=True)
+    (build / "lint/compile_commands.json").write_text(json.dumps(commands), encoding="utf-8")
     return sorted({one["file"] for one in commands if one["file"].startswith(str(folder) + "/")})
 
 
@@ -33,10 +47,13 @@ def lint(root, folder):
     os.environ.update(MONARCH_BUILD=str(build), PATH=system_path())
     preparing.installed("fly", "lint")
     preparing.built()
+    found = sources(build, root / folder)
+    if not found:
+        sys.exit(f"lint: nothing below {folder} is compiled")
     # GCC's names of warnings are not all clang's.
-    tidy = ["xargs", "-0", "-n", "1", "-P", str(os.cpu_count()), "clang-tidy", "--quiet", "-p", str(build),
+    tidy = ["xargs", "-0", "-n", "1", "-P", str(os.cpu_count()), "clang-tidy", "--quiet", "-p", str(build / "lint"),
             "--warnings-as-errors=*", "--extra-arg=-Wno-unknown-warning-option"]
-    preparing.must(tidy, input="\0".join(sources(build, root / folder)).encode(), cwd=root)
+    preparing.must(tidy, input="\0".join(found).encode(), cwd=root)
     if folder == "src":
         preparing.must(["catkin_lint", "-W1", "."], cwd=root)
         scripts = [path for path in [*(root / "scripts").iterdir(), root / ".ci/run"] if path.is_file()
