@@ -215,8 +215,9 @@ std::string describe(const RunPlan& p) {
   text << '\n'
        << "time: set-up " << timeText(p.setup_s) << ", " << p.steps << " steps of "
        << timeText(p.step_s) << " as measured just now (" << p.evaluations
-       << " evaluations of the air, " << p.ranks << (p.ranks == 1 ? " process, " : " processes, ")
-       << p.threads << (p.threads == 1 ? " thread): " : " threads each): ") << timeText(p.run_s())
+       << (p.evaluations == 1 ? " evaluation of the air, " : " evaluations of the air, ") << p.ranks
+       << (p.ranks == 1 ? " process, " : " processes, ") << p.threads
+       << (p.threads == 1 ? " thread): " : " threads each): ") << timeText(p.run_s())
        << "; nodes and several processes need watchdog_s >= " << p.watchdogNeeded() << "\n";
   return text.str();
 }

@@ -1,7 +1,7 @@
 """Installs what is missing, builds, runs every test, prints the output of those that fail; the last line is "N
 passed, N failed". The exit code is 0 only if every test passed.
 
-monarch check [sanitizers:=LIST] [ctest's arguments]     e.g. monarch check -R pressure
+monarch check [sanitizers:=LIST] [ctest's arguments]     e.g. monarch check -R pressure (everything is compiled first)
 monarch check lint:=true | lint:=FOLDER"""
 from monarch_flight import keys, preparing
 from monarch_flight.keys import Key, Table

@@ -1,4 +1,7 @@
 """Prints the summary of a run; the exit code is 0 only for a complete run."""
+import os
+
+from monarch_flight.keys import Refused
 from monarch_flight.runs import summary
 
 
@@ -7,4 +10,6 @@ def add_arguments(parser):
 
 
 def run(arguments):
+    if not os.path.isdir(arguments.folder):
+        raise Refused(summary.load(arguments.folder)[1])
     return summary.show(arguments.folder)
