@@ -1,7 +1,6 @@
 // What a design says of itself: a section of a case file, with where its numbers come from.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "monarch_flight/math/angle.h"

@@ -1,6 +1,5 @@
 // What a trim says of its result: a table for people and a case file.
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <ostream>
 #include <sstream>
