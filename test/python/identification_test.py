@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 from monarch_flight import case_files  # noqa: E402
 from monarch_flight.command.main import main as monarch  # noqa: E402
-from monarch_flight.identification import confidence, fit, flights, report, study  # noqa: E402
+from monarch_flight.identification import confidence, fit, flights, picture, report, study  # noqa: E402
 from monarch_flight.keys import Refused  # noqa: E402
 
 KAPPA, REST = "insect/wing/kappa", "insect/wing/theta_0"
@@ -26,8 +26,13 @@ def angle(kappa, rest, t):
     return 30 * np.cos(x - 1e4 * kappa) / (1 + 1e4 * kappa) + 50 * rest * (1 + np.sin(2 * x))
 
 
+def body(root, t):
+    """Made up [deg]: linear in where the wing roots are [m]."""
+    return 18 + 4000 * root * np.sin(2 * np.pi * FREQUENCY * t)
+
+
 class Made(flights.Flights):
-    """Flies `angle` instead of a butterfly; fails where kappa is above `breaks`."""
+    """Flies `angle` and `body` instead of a butterfly; fails where kappa is above `breaks`."""
     breaks = np.inf
 
     def fly(self, texts):
@@ -39,8 +44,9 @@ class Made(flights.Flights):
             if wing["kappa"] > self.breaks:
                 self.put(name + ".failed", "the flow blew up")
                 continue
-            rows = "\n".join(f"{a:.17g},{np.radians(b):.17g}" for a, b in zip(t, angle(wing["kappa"], wing["theta_0"], t)))
-            self.put(name + ".csv", f"# made up\nt,theta_R\n{rows}\n")
+            flown = zip(t, angle(wing["kappa"], wing["theta_0"], t), body(wing.get("root", [0])[0], t))
+            rows = "\n".join(f"{a:.17g},{np.radians(b):.17g},{np.radians(c):.17g}" for a, b, c in flown)
+            self.put(name + ".csv", f"# made up\nt,theta_R,theta_B\n{rows}\n")
 
 
 class Folder(unittest.TestCase):
@@ -71,7 +77,7 @@ class Folder(unittest.TestCase):
     def search(self, flown=None, **more):
         told = []
         wanted = study.read(self.written(**more))
-        return wanted, fit.search(wanted, flown or Made(self.folder / "out", "theta_R", 2, 2), 20, told.append), told
+        return wanted, fit.search(wanted, flown or Made(self.folder / "out", ["theta_R"], 2, 2), 20, told.append), told
 
 
 class Confidence(unittest.TestCase):
@@ -113,12 +119,13 @@ class Search(Folder):
     def test_known_values_are_found(self):
         wanted, [found], _ = self.search()
         np.testing.assert_allclose(found.values, [7e-5, -0.2], rtol=1e-5)
-        self.assertLess(found.comparison.rms, 1e-3)
-        self.assertEqual(len(found.comparison.t), 2 * STEPS)
-        ratio, ahead = found.comparison.fundamental()
+        [comparison] = found.comparisons.angles
+        self.assertLess(comparison.rms, 1e-3)
+        self.assertEqual(len(comparison.t), 2 * STEPS)
+        ratio, ahead = comparison.fundamental()
         self.assertAlmostEqual(ratio, 1.0, places=5)
         self.assertAlmostEqual(ahead, 0.0, places=3)
-        self.assertLess(found.comparison.repeats, 1e-9)
+        self.assertLess(comparison.repeats, 1e-9)
         self.assertTrue(found.ended)
         self.assertEqual(list(found.active), [0, 0])
         self.assertEqual(wanted.content(found.stage, found.values)["insect"]["wing"]["kappa"], found.values[0])
@@ -130,19 +137,19 @@ class Search(Folder):
         self.assertRegex(told[told.index("second (2 of 2)") + 1], "point 1: kappa 7e-05, theta_0 -0.2: rms 0.000 deg")
 
     def test_a_search_goes_on_without_flying_again(self):
-        first = Made(self.folder / "out", "theta_R", 2, 2)
+        first = Made(self.folder / "out", ["theta_R"], 2, 2)
         self.search(first)
         self.assertGreater(first.flown, 10)
-        second = Made(self.folder / "out", "theta_R", 2, 2)
+        second = Made(self.folder / "out", ["theta_R"], 2, 2)
         self.search(second)
         self.assertEqual(second.flown, 0)
 
     def test_a_flight_that_fails_makes_steps_shorter(self):
-        flown = Made(self.folder / "out", "theta_R", 2, 2)
+        flown = Made(self.folder / "out", ["theta_R"], 2, 2)
         flown.breaks = 1.0001e-4  # behind the start, where the first difference goes
         _, [found], told = self.search(flown)
         np.testing.assert_allclose(found.values, [7e-5, -0.2], rtol=1e-5)
-        flown = Made(self.folder / "other", "theta_R", 2, 2)
+        flown = Made(self.folder / "other", ["theta_R"], 2, 2)
         flown.breaks = 1e-5
         with self.assertRaisesRegex(fit.NoWay, "start values failed: the flow blew up; change unknown"):
             self.search(flown)
@@ -163,9 +170,36 @@ class Search(Folder):
         _, [found], _ = self.search(measured=dict(content["measured"], file="flap.csv", repeats=True), compare=[9])
         np.testing.assert_allclose(found.values, [7e-5, -0.2], rtol=1e-5)
 
+    def test_several_angles_and_a_place_in_a_list(self):
+        t = np.arange(0, 4 * STEPS + 1) / (STEPS * FREQUENCY)
+        rows = "\n".join(f"{a:.17g},{b:.17g}" for a, b in zip(t, body(-1.5e-3, t) + 0.5))
+        (self.folder / "body.csv").write_text(f"t,theta_B_deg\n{rows}\n", encoding="utf-8")
+        place = "insect/wing/root/0"
+        unknown = dict(self.content()["unknown"], **{place: dict(start=1e-3, range=[-4e-3, 4e-3])})
+        told = [dict(angle="theta_R", file="measured.csv"), dict(angle="theta_B", file="body.csv", weight=0.5)]
+        flown = Made(self.folder / "out", ["theta_R", "theta_B"], 2, 2)
+        wanted, [found], words = self.search(flown, set={"insect/wing/root": [0.0, 2e-3, 0.0]}, unknown=unknown, measured=told)
+        np.testing.assert_allclose(found.values, [7e-5, -1.5e-3, -0.2], rtol=1e-4)  # in the order of the file
+        wing, turned = found.comparisons.angles
+        self.assertLess(wing.rms, 1e-3)
+        self.assertAlmostEqual(turned.rms, 0.5, places=4)  # what was added to what was measured
+        self.assertAlmostEqual(found.comparisons.rms, 0.5 * 0.5 / np.sqrt(2), places=4)
+        self.assertRegex(words[1], r"root/0 0.001, theta_0 0.1: rms \S+ deg \(theta_R \S+, theta_B \S+\)")
+        case = wanted.content(found.stage, found.values)
+        self.assertEqual(case["insect"]["wing"]["root"], [found.values[1], 2e-3, 0.0])
+        known = confidence.confidence(found.jacobian, found.comparisons.residuals)
+        text = report.case(wanted, [found], known)
+        self.assertIn("theta_R of measured.csv and theta_B (weight 0.5) of body.csv", text)
+        self.assertIn("# status: place 0, fitted within -0.004 to 0.004", text)
+        record = yaml.safe_load(report.record(wanted, [found], known))
+        self.assertAlmostEqual(record["stages"][0]["angles"]["theta_B"]["swing_deg"], np.ptp(body(-1.5e-3, t)), places=2)
+        self.assertIn("root/0", report.text(wanted, [found], known))
+        picture.draw(wanted, [found], self.folder / "residual.png")
+        self.assertGreater((self.folder / "residual.png").stat().st_size, 10000)
+
     def test_the_case_tells_where_its_values_come_from(self):
         wanted, found, _ = self.search()
-        known = confidence.confidence(found[-1].jacobian, found[-1].comparison.residuals)
+        known = confidence.confidence(found[-1].jacobian, found[-1].comparisons.residuals)
         text = report.case(wanted, found, known)
         path = self.folder / "found.yaml"
         path.write_text(text, encoding="utf-8")
@@ -199,6 +233,16 @@ class Faults(Folder):
         self.assertIn("nowhere.csv cannot be read", self.faults(measured=dict(angle="phi", file="nowhere.csv")))
         (self.folder / "short.csv").write_text("t,phi\n0,1\n1,2\n", encoding="utf-8")
         self.assertIn("six rows or more", self.faults(measured=dict(angle="phi", file="short.csv")))
+
+    def test_several_measured(self):
+        wing = dict(angle="theta_R", series="monarch")
+        self.assertIn("angle = theta_R: stands twice", self.faults(measured=[wing, wing]))
+        self.assertIn("weight = 0: must be a number above 0", self.faults(measured=[dict(wing, weight=0)]))
+        self.assertIn("must be {angle, series}", self.faults(measured=[]))
+
+    def test_a_place_that_the_list_has_not(self):
+        self.assertIn("3 is no place in this list of 3", self.faults(set={"insect/wing/root": [0, 0, 0]},
+                                                                     unknown={"insect/wing/root/3": dict(start=1, range=[0, 2])}))
 
     def test_a_key_below_a_number(self):
         self.assertIn("insect/preset/x: preset is no section", self.faults(unknown={"insect/preset/x": dict(start=1, range=[0, 2])}))

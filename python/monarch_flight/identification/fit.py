@@ -16,6 +16,8 @@ class NoWay(Exception):
 @dataclasses.dataclass
 class Comparison:
     """Flown and measured angle over the compared flaps [deg]."""
+    angle: str
+    weight: float
     t: np.ndarray
     phase: np.ndarray  # flaps from the start of the motion
     flown: np.ndarray
@@ -37,12 +39,27 @@ class Comparison:
 
 
 @dataclasses.dataclass
+class Comparisons:
+    """Of every angle."""
+    angles: list
+
+    @property
+    def residuals(self):
+        """Of all angles, each times its weight [deg]."""
+        return np.concatenate([one.weight * one.residuals for one in self.angles])
+
+    @property
+    def rms(self):
+        return float(np.sqrt(np.mean(self.residuals ** 2)))
+
+
+@dataclasses.dataclass
 class Found:
     """Where a stage ended."""
     stage: object
     shares: np.ndarray
     values: list
-    comparison: Comparison
+    comparisons: Comparisons
     jacobian: np.ndarray  # of the residuals [deg] by the shares
     active: np.ndarray  # -1, 1: the unknown stands at the low or high end of its range
     ended: bool  # False: stopped behind the most points
@@ -59,15 +76,20 @@ class Search:
         return [unknown.value(float(share)) for unknown, share in zip(self.study.unknowns, shares)]
 
     def compared(self, case, flight):
-        t, angle = flight
+        t, angles = flight
         steps, frequency = int(case["time"]["steps_per_flap"]), float(case["motion"]["frequency"])
         rows = np.concatenate([np.arange((flap - 1) * steps + 1, flap * steps + 1) for flap in self.study.flaps])
         rows = rows[rows < len(t)]
-        last = angle[-steps:] - angle[-2 * steps:-steps] if len(angle) > 2 * steps else np.array([np.nan])
-        return Comparison(t[rows], rows / steps, angle[rows], self.study.measured.at(t[rows], frequency), float(np.sqrt(np.mean(last ** 2))))
+
+        def of(measured):
+            angle = angles[measured.angle]
+            last = angle[-steps:] - angle[-2 * steps:-steps] if len(angle) > 2 * steps else np.array([np.nan])
+            return Comparison(measured.angle, measured.weight, t[rows], rows / steps, angle[rows], measured.at(t[rows], frequency),
+                              float(np.sqrt(np.mean(last ** 2))))
+        return Comparisons([of(measured) for measured in self.study.measured])
 
     def flown(self, points):
-        """For each point its Comparison or the Failed."""
+        """For each point its Comparisons or the Failed."""
         cases = [self.study.flown(self.stage, self.values(shares)) for shares in points]
         return [flight if isinstance(flight, Failed) else self.compared(case, flight)
                 for case, flight in zip(cases, self.flights.all(cases))]
@@ -76,11 +98,12 @@ class Search:
         """Of one point; infinite where the flight fails, which makes the search take a shorter step."""
         [result] = self.flown([shares])
         self.points += 1
-        words = ", ".join(f"{unknown.key.rpartition('/')[2]} {value:.5g}" for unknown, value in zip(self.study.unknowns, self.values(shares)))
+        words = ", ".join(f"{unknown.short} {value:.5g}" for unknown, value in zip(self.study.unknowns, self.values(shares)))
         if isinstance(result, Failed):
             self.tell(f"  point {self.points}: {words}: the flight failed ({result}); a shorter step is taken")
             return np.full_like(self.start.residuals, np.inf)
-        self.tell(f"  point {self.points}: {words}: rms {result.rms:.3f} deg")
+        each = ", ".join(f"{one.angle} {one.rms:.3f}" for one in result.angles)
+        self.tell(f"  point {self.points}: {words}: rms {result.rms:.3f} deg" + (f" ({each})" if len(result.angles) > 1 else ""))
         return result.residuals / np.sqrt(len(result.residuals))
 
     def beside(self, shares):
@@ -108,9 +131,10 @@ class Search:
         self.start = self.flown(self.beside(shares)[1])[0]
         if isinstance(self.start, Failed):
             raise NoWay(f"the flight of the start values failed: {self.start}; change unknown/*/start, or take more steps a flap")
-        if not np.isfinite(self.start.measured).all():
-            raise NoWay(f"{self.study.measured.source} does not cover {self.start.t[0]:.6g} to {self.start.t[-1]:.6g} s, the flaps compared; "
-                        "compare others, or give repeats: true where it is one flap")
+        for one, measured in zip(self.start.angles, self.study.measured):
+            if not np.isfinite(one.measured).all():
+                raise NoWay(f"{measured.source} does not cover {one.t[0]:.6g} to {one.t[-1]:.6g} s, the flaps compared; "
+                            "compare others, or give repeats: true where it is one flap")
 
     def run(self, shares, most):
         """From `shares` to the least sum of squares."""

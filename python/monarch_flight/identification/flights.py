@@ -27,17 +27,17 @@ class Unflown(Exception):
 class Flights:
     """Flies cases; `points` holds what was flown, by the text of its case."""
 
-    def __init__(self, folder, angle, jobs, threads):
-        self.points, self.flying, self.angle = folder / "points", folder / "flying", angle
+    def __init__(self, folder, angles, jobs, threads):
+        self.points, self.flying, self.angles = folder / "points", folder / "flying", list(angles)
         self.jobs, self.threads = jobs, threads
         shutil.rmtree(self.flying, ignore_errors=True)  # of a search that was stopped
         self.points.mkdir(parents=True, exist_ok=True)
         self.flown = 0
 
     def all(self, cases):
-        """For each case (t, angle in deg) of its whole flight, or the Failed that it ended with. Raises Unflown."""
+        """For each case (t, {angle: deg}) of its whole flight, or the Failed that it ended with. Raises Unflown."""
         texts = [case_files.text(case) for case in cases]
-        names = [hashlib.sha256(text.encode()).hexdigest()[:16] for text in texts]
+        names = [hashlib.sha256("\n".join([text, *self.angles]).encode()).hexdigest()[:16] for text in texts]
         missing = {name: text for name, text in zip(names, texts) if not self.kept(name)}
         try:
             self.fly(missing)
@@ -53,7 +53,7 @@ class Flights:
         if failed.exists():
             return Failed(failed.read_text(encoding="utf-8"))
         table = data.table(self.points / (name + ".csv"))
-        return table["t"], np.degrees(table[self.angle])
+        return table["t"], {angle: np.degrees(table[angle]) for angle in self.angles}
 
     def fly(self, texts):
         """Side by side, a thread each; one alone takes `threads`."""
@@ -82,7 +82,7 @@ class Flights:
                                      f"threads:={threads}"], stdout=log, stderr=log, env=environment.of_flight(os.environ))
 
     def keep(self, name, text, code):
-        """What is left of a flight that has ended: its angle, or why it failed."""
+        """What is left of a flight that has ended: its angles, or why it failed."""
         folder = self.flying / name
         words = [line for line in (folder / "log").read_text(encoding="utf-8", errors="replace").splitlines() if line.strip()]
         if code in STOPPED:
@@ -97,9 +97,10 @@ class Flights:
         else:
             self.flown += 1
             columns = data.table(folder / "run/flight.csv")
-            rows = "\n".join(f"{t:.17g},{angle:.17g}" for t, angle in zip(columns["t"], columns[self.angle]))
+            names = ["t", *self.angles]
+            rows = "\n".join(",".join(f"{value:.17g}" for value in row) for row in zip(*(columns[one] for one in names)))
             comments = "".join(f"# {line}\n" for line in text.splitlines())
-            self.put(name + ".csv", f"{comments}t,{self.angle}\n{rows}\n")
+            self.put(name + ".csv", f"{comments}{','.join(names)}\n{rows}\n")
         shutil.rmtree(folder)
 
     def put(self, name, text):

@@ -12,7 +12,7 @@ def tell(text):
 
 def identify(study, out, jobs, threads, most):
     """Exit code."""
-    flown = flights.Flights(out, study.measured.angle, jobs, threads)
+    flown = flights.Flights(out, [one.angle for one in study.measured], jobs, threads)
     try:
         found = fit.search(study, flown, most, tell)
     except flights.Unflown as refusal:
@@ -20,7 +20,7 @@ def identify(study, out, jobs, threads, most):
     except fit.NoWay as end:
         print(f"identify: {end}", file=sys.stderr)
         return FAILED
-    known = confidence.confidence(found[-1].jacobian, found[-1].comparison.residuals)
+    known = confidence.confidence(found[-1].jacobian, found[-1].comparisons.residuals)
     write(study, found, known, out)
     tell(f"\n{report.text(study, found, known)}\n\n{flown.flown} flights flown; case, identification.yaml, identification.txt and "
          f"residual.png are in {out}")

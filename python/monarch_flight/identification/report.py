@@ -20,6 +20,14 @@ def flaps(study):
     return ("flap " if len(study.flaps) == 1 else "flaps ") + ", ".join(map(str, study.flaps))
 
 
+def sought(study):
+    """The angles and where they were measured, in words."""
+    by_source = {}
+    for one in study.measured:
+        by_source.setdefault(one.source, []).append(one.angle + ("" if one.weight == 1 else f" (weight {one.weight:g})"))
+    return " and ".join(f"{', '.join(angles)} of {source}" for source, angles in by_source.items())
+
+
 def deviations(study, known):
     """Standard deviations in the units of the case."""
     return [float(share) * (unknown.high - unknown.low) for share, unknown in zip(known.deviations, study.unknowns)]
@@ -34,14 +42,19 @@ def case(study, found, known):
     last = found[-1]
     comments, heading = case_files.comments(study.origin)
     comments |= {key: "status: set by the study" for key in study.set}
-    ratio, ahead = last.comparison.fundamental()
     names = " and ".join(unknown.key for unknown in study.unknowns)
+    fitted = {}
     for unknown, deviation in zip(study.unknowns, deviations(study, known)):
-        comments[unknown.key] = (f"status: fitted within {unknown.low:g} to {unknown.high:g}, standard deviation {deviation:.2g}")
+        above, _, place = unknown.key.rpartition("/")
+        key, which = (above, f"place {place}, ") if place.isdecimal() else (unknown.key, "")
+        fitted.setdefault(key, []).append(f"status: {which}fitted within {unknown.low:g} to {unknown.high:g}, standard deviation {deviation:.2g}")
+    comments |= {key: "\n".join(lines) for key, lines in fitted.items()}
     origin = study.origin.relative_to(places.share()) if study.origin.is_relative_to(places.share()) else study.origin.name
     made = (f"# Made by monarch identify (docs/identification.md) from {origin}: {names}\n"
-            f"# fitted together to {study.measured.angle} of {study.measured.source}, {flaps(study)}; {described(last.stage)}.\n"
-            f"# There rms {last.comparison.rms:.2f} deg, fundamental {ratio:.3f} of the measured one, {ahead:+.1f} deg ahead.\n")
+            f"# fitted together to {sought(study)}, {flaps(study)}; {described(last.stage)}.\n")
+    for one in last.comparisons.angles:
+        ratio, ahead = one.fundamental()
+        made += f"# {one.angle}: rms {one.rms:.2f} deg, fundamental {ratio:.3f} of the measured one, {ahead:+.1f} deg ahead.\n"
     content = study.content(last.stage, last.values)
     content["name"] = study.name
     content["time"]["flaps"] = max(study.flaps)
@@ -52,10 +65,15 @@ def rounded(values, digits=6):
     return [float(f"{value:.{digits}g}") for value in np.asarray(values, float)]
 
 
+def angle_record(one):
+    ratio, ahead = one.fundamental()
+    return dict(rms_deg=round(one.rms, 4), amplitude_ratio=round(ratio, 4), ahead_deg=round(ahead, 3), repeats_deg=round(one.repeats, 4),
+                mean_deg=round(float(one.flown.mean()), 3), swing_deg=round(float(np.ptp(one.flown)), 3))
+
+
 def stage_record(study, one):
-    ratio, ahead = one.comparison.fundamental()
-    return dict(name=one.stage.name, case=dict(one.stage.changes), rms_deg=round(one.comparison.rms, 4), amplitude_ratio=round(ratio, 4),
-                ahead_deg=round(ahead, 3), repeats_deg=round(one.comparison.repeats, 4), mean_deg=round(float(one.comparison.flown.mean()), 3), ended=one.ended,
+    return dict(name=one.stage.name, case=dict(one.stage.changes), rms_deg=round(one.comparisons.rms, 4), ended=one.ended,
+                angles={comparison.angle: angle_record(comparison) for comparison in one.comparisons.angles},
                 values={unknown.key: value for unknown, value in zip(study.unknowns, one.values)})
 
 
@@ -69,8 +87,10 @@ def record(study, found, known):
                          direction=rounded(direction, 4))
                     for deviation, value, sure, direction in zip(known.combination_deviations, known.singular_values, known.determined,
                                                                  known.combinations)]
-    content = dict(case=str(study.case.get("name")), angle=study.measured.angle, measured=study.measured.source, flaps=list(study.flaps),
-                   measured_mean_deg=round(float(last.comparison.measured.mean()), 3), stages=[stage_record(study, one) for one in found],
+    measured = {told.angle: dict(source=told.source, weight=told.weight, mean_deg=round(float(one.measured.mean()), 3),
+                                 swing_deg=round(float(np.ptp(one.measured)), 3))
+                for told, one in zip(study.measured, last.comparisons.angles)}
+    content = dict(case=str(study.case.get("name")), measured=measured, flaps=list(study.flaps), stages=[stage_record(study, one) for one in found],
                    unknowns=unknowns, independent_residuals=float(f"{known.independent:.4g}"),
                    correlation=[rounded(row, 4) for row in known.correlation], combinations=combinations)
     return ("# Written by monarch identify; docs/identification.md says what each number means. Standard deviations of combinations\n"
@@ -80,14 +100,20 @@ def record(study, found, known):
 
 def text(study, found, known):
     """identification.txt: stages, values with their confidence, what is determined."""
-    last, names = found[-1], [unknown.key.rpartition("/")[2] for unknown in study.unknowns]
+    last, names = found[-1], [unknown.short for unknown in study.unknowns]
     width = max(map(len, names)) + 2
-    lines = [f"{study.measured.angle} of {study.measured.source} against {study.case.get('name')}, {flaps(study)}", "",
-             f"{'stage':34s}{'rms deg':>9s}{'ratio':>8s}{'ahead deg':>11s}{'repeats deg':>13s}  " + "".join(f"{name:>{max(12, len(name) + 2)}s}" for name in names)]
+    lines = [f"{sought(study)} against {study.case.get('name')}, {flaps(study)}", "",
+             f"{'stage':26s}{'angle':>8s}{'rms deg':>9s}{'ratio':>8s}{'ahead deg':>11s}{'repeats deg':>13s}{'mean deg':>10s}{'swing deg':>11s}"]
     for one in found:
-        ratio, ahead = one.comparison.fundamental()
-        lines.append(f"{one.stage.name[:33]:34s}{one.comparison.rms:9.3f}{ratio:8.3f}{ahead:11.1f}{one.comparison.repeats:13.2f}  "
-                     + "".join(f"{value:>{max(12, len(name) + 2)}.5g}" for name, value in zip(names, one.values)))
+        for comparison in one.comparisons.angles:
+            ratio, ahead = comparison.fundamental()
+            lines.append(f"{one.stage.name[:25]:26s}{comparison.angle:>8s}{comparison.rms:9.3f}{ratio:8.3f}{ahead:11.1f}{comparison.repeats:13.2f}"
+                         f"{comparison.flown.mean():10.2f}{np.ptp(comparison.flown):11.2f}")
+    for comparison in last.comparisons.angles:
+        lines.append(f"{'measured':26s}{comparison.angle:>8s}{'':41s}{comparison.measured.mean():10.2f}{np.ptp(comparison.measured):11.2f}")
+    lines += ["", f"{'stage':26s}" + "".join(f"{name:>{max(12, len(name) + 2)}s}" for name in names)]
+    for one in found:
+        lines.append(f"{one.stage.name[:25]:26s}" + "".join(f"{value:>{max(12, len(name) + 2)}.5g}" for name, value in zip(names, one.values)))
     lines += [f"the search of {one.stage.name} was stopped behind its most points; call it again with a larger most" for one in found if not one.ended]
     lines += ["", f"{'unknown'.ljust(width)}{'value':>13s}{'deviation':>12s}{'low':>11s}{'high':>11s}  correlation"]
     told, ends_ = ends(last)
@@ -95,7 +121,7 @@ def text(study, found, known):
         row = " ".join(f"{value:+.2f}" for value in known.correlation[i])
         lines.append(f"{names[i].ljust(width)}{last.values[i]:13.6g}{deviations(study, known)[i]:12.2g}{unknown.low:11.4g}{unknown.high:11.4g}  "
                      f"{row}{told[int(ends_[i])]}")
-    lines += ["", f"combinations, in shares of the ranges (deviations as if {known.independent:.3g} of the {len(last.comparison.t)} residuals were "
+    lines += ["", f"combinations, in shares of the ranges (deviations as if {known.independent:.3g} of the {len(last.comparisons.residuals)} residuals were "
               "independent)"]
     for deviation, value, sure, direction in zip(known.combination_deviations, known.singular_values, known.determined, known.combinations):
         combination = " ".join(f"{part:+.2f} {name}" for part, name in zip(direction, names))

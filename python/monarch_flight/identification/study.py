@@ -21,10 +21,16 @@ QUIET = dict(record=False, checkpoint_every=0, surface_every=0, flow_every=0, fi
 @dataclasses.dataclass(frozen=True)
 class Unknown:
     """A number of the case that is sought."""
-    key: str  # of the case, as insect/wing/kappa
+    key: str  # of the case, as insect/wing/kappa or, of a list, insect/wing/root/0
     start: float
     low: float
     high: float
+
+    @property
+    def short(self):
+        """The last part of the key; of a list with its name."""
+        above, _, last = self.key.rpartition("/")
+        return f"{above.rpartition('/')[2]}/{last}" if last.isdecimal() else last
 
     def value(self, share):
         """At a share of its range, rounded so that a case file shows it whole."""
@@ -48,7 +54,7 @@ class Study:
     origin: pathlib.Path  # that file
     set: dict  # what the study puts into it
     unknowns: list
-    measured: object
+    measured: list  # one an angle
     flaps: list  # compared, counted from 1
     difference: float  # of the Jacobian, in shares of a range
     stages: list
@@ -73,11 +79,18 @@ class Study:
 def place(content, key, value):
     """Puts a value at a key of a case. Raises Refused where the path leads through a number."""
     *above, last = key.split("/")
-    for step in above:
-        content = content.setdefault(step, {})
-        if not isinstance(content, dict):
+    for n, step in enumerate(above):
+        content = content[item(content, step, key)] if isinstance(content, list) else content.setdefault(step, {})
+        if not isinstance(content, dict) and not (isinstance(content, list) and n + 1 == len(above)):
             raise Refused(f"{key}: {step} is no section of the case; give a key as docs/case_files.md has it")
-    content[last] = copy.deepcopy(value)
+    content[item(content, last, key) if isinstance(content, list) else last] = copy.deepcopy(value)
+
+
+def item(values, step, key):
+    """Place in a list of the case."""
+    if not (step.isdecimal() and int(step) < len(values)):
+        raise Refused(f"{key}: {step} is no place in this list of {len(values)}; they are counted from 0")
+    return int(step)
 
 
 class Check:
@@ -200,11 +213,11 @@ def read(path):
     flaps, difference, stages = check.flaps(), check.difference(), check.stages()
     for key, value in check.set().items():
         place(case, key, value)
-    series, faults = measured.read(content.get("measured"), path)
+    angles, faults = measured.read(content.get("measured"), path)
     for fault in faults:
         check.fault("measured", fault)
     if check.faults:
         raise Refused(*check.faults)
-    study = Study(name, case, origin, check.set(), unknowns, series, flaps, difference, stages)
+    study = Study(name, case, origin, check.set(), unknowns, angles, flaps, difference, stages)
     study.content(stages[0], [unknown.start for unknown in unknowns])  # a path that leads through a number is told now
     return study
