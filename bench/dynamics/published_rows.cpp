@@ -13,8 +13,8 @@ Insect publishedInsect(const History& history) {
   plate.J << 2.756824953134474e-08, 2.4957003913366034e-09, 0.0, 2.4957003913366034e-09,
       2.579907487057571e-09, 0.0, 0.0, 0.0, 3.0148157018402314e-08;
   plate.mu = {0.0, 0.00284, 0.0};
-  const Wing wing{plate, Planform::rectangle(0.0209048, 0.060997, 0.25), history.kappa,
-                  history.theta_0};
+  const Wing wing{
+      plate, Planform::rectangle(0.0209048, 0.060997, 0.25), history.kappa, history.theta_0, {}};
   Insect insect{history.name, false,        0,           Matrix3d::Zero(), 0, 0, 0, 0,
                 {},           history.beta, {wing, wing}};
   insect.m_B = 1.485e-4;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "monarch_flight/insect/insect.h"
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/math/errors.h"
 #include "monarch_flight/math/rotation.h"
 #include "monarch_flight/run/run_outputs.h"
@@ -15,7 +16,6 @@
 namespace monarch_flight {
 
 namespace fs = std::filesystem;
-constexpr double kPi = 3.14159265358979323846;
 
 // A new folder for each test, gone afterwards.
 class RunFiles : public testing::Test {

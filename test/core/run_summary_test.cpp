@@ -1,6 +1,7 @@
 // What summary.json says beside its figures: nothing was ever free, the body has turned over.
 #include "checkpoint_fixture.h"
 #include "monarch_flight/insect/start_motion.h"
+#include "monarch_flight/math/angle.h"
 #include "monarch_flight/run/summary.h"
 #include "run_files_fixture.h"
 
@@ -49,6 +50,41 @@ TEST(SummaryRemarks, ARunWithoutAFreeStepSaysSo) {
   c.time = freeCase().time;
   c.free = {};  // as it was meant
   EXPECT_EQ(summaryOf(c, level).at("remarks").size(), 0u);
+}
+
+TEST(SummaryMidPlane, TellsHowFarTheWingsPassThroughIt) {
+  Case c = loadCase("climb_trimmed", {{"flaps", "1"}}, CONFIG_DIR);
+  c.coupling.prescribed_steps = 0;
+  const Planform& wing = c.insect.wings.right.planform;
+  const double root = c.insect.wings.right.plate.mu.y();
+  // Flapped by an angle of 80 deg upwards, straight out, the tip is far from the plane; by 100 deg
+  // it is beyond it by span * sin(10 deg) - root.
+  const auto flapped = [&](double phi, double psi) {
+    Summary summary(c);
+    for (std::uint32_t n = 0; n <= 4; ++n) {
+      CommittedStep s = stepAt(n);
+      s.angles = {};
+      s.angles.wings.right.phi.q = n == 2 ? phi : 0.0;
+      s.angles.wings.right.psi.q = n == 2 ? psi : 0.0;
+      s.angles.wings.left = s.angles.wings.right;
+      summary.add(s);
+    }
+    return nlohmann::json::parse(summary.json(""));
+  };
+  const auto y = [&](double phi, double at) { return root + at * std::cos(phi); };
+  ASSERT_GT(y(80 * kDegree, wing.yTip()), 0.0);
+  nlohmann::json j = flapped(80 * kDegree, 0.0);
+  EXPECT_EQ(j.at("mid_plane").at("depth_m"), 0.0);
+  EXPECT_EQ(j.at("remarks").size(), 0u);
+  const double angle = 100 * kDegree, depth = -y(angle, wing.yTip());
+  ASSERT_GT(depth, 0.0);
+  for (const double phi : {angle, -angle}) {
+    j = flapped(phi, 0.0);
+    EXPECT_NEAR(j.at("mid_plane").at("depth_m"), depth, 1e-12);
+    EXPECT_NEAR(j.at("mid_plane").at("share_of_steps"), 0.2, 1e-12);
+    ASSERT_EQ(j.at("remarks").size(), 1u);
+    expectHas(j.at("remarks").at(0), "the wings pass through the insect's mid-plane by up to ");
+  }
 }
 
 TEST(SummaryTumbled, NamesTheFirstFlapBeyondSixtyDegrees) {

@@ -30,7 +30,7 @@ inline Insect publishedMonarch() {
   abdomen.J =
       Eigen::Vector3d(1.87879965e-10, 1.1089084142499997e-08, 1.1089084142499997e-08).asDiagonal();
   abdomen.mu = {-0.007315, 0.0, 0.0};
-  const Wing wing{right, Planform::rectangle(0.0209048, 0.060997, 0.25), 4.07e-5, -0.2};
+  const Wing wing{right, Planform::rectangle(0.0209048, 0.060997, 0.25), 4.07e-5, -0.2, {}};
   Insect insect{"published", false,   0.0,         Eigen::Matrix3d::Zero(),
                 0.01463,     0.00568, 0.01738,     0.00371,
                 abdomen,     0.4438,  {wing, wing}};

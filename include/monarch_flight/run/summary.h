@@ -8,6 +8,7 @@
 
 #include "monarch_flight/run/case.h"
 #include "monarch_flight/run/checkpoints.h"
+#include "monarch_flight/run/mid_plane.h"
 #include "monarch_flight/run/state_hash.h"
 
 namespace monarch_flight {
@@ -39,6 +40,7 @@ class Summary {
 
  private:
   void memory(StateVisitor& state);
+  std::vector<std::string> remarks() const;
   Eigen::Vector3d meanVelocity() const;
   void addWork(const CommittedStep& step);
   void addTimes(const CommittedStep& step);
@@ -71,6 +73,7 @@ class Summary {
   long cells_ = 0;
   Matrix6d added_mass_ = Matrix6d::Zero();
   IgnoredMessages ignored_;
+  MidPlane mid_plane_;
   StateHash hash_;
   double wall_before_ = 0.0;    // of the parts flown before a resumption [s]
   std::string resumed_ = "[]";  // JSON: where and how the run went on

@@ -54,7 +54,11 @@ void Range::add(double value) {
 }
 
 Summary::Summary(const Case& c)
-    : case_(c), time_(c.time), begin_(std::chrono::steady_clock::now()), hash_(c.mirrored) {}
+    : case_(c),
+      time_(c.time),
+      begin_(std::chrono::steady_clock::now()),
+      mid_plane_(c),
+      hash_(c.mirrored) {}
 
 void Summary::add(const CommittedStep& step) {
   const BodyState& body = step.interface.body;
@@ -68,6 +72,7 @@ void Summary::add(const CommittedStep& step) {
   if (over && tumbled_ == kNever) tumbled_ = step.step;
   guidance_ = step.guidance;
   if (guidance_.lost && lost_ == kNever) lost_ = step.step;
+  mid_plane_.add(step);
   hash_.add(step);
   addTimes(step);
   ignored_ = step.ignored;
@@ -171,6 +176,7 @@ void Summary::memory(StateVisitor& state) {
   }
   state("cells", cells_);
   state("added_mass", added_mass_);
+  mid_plane_.memory(state);
   hash_.memory(state);
   double wall = wallSeconds();
   state("wall_s_total", wall);
@@ -194,6 +200,13 @@ std::uint64_t Summary::flapOf(std::uint32_t step) const {
   return std::max(1L, std::lround(std::ceil(flaps * (1.0 - 1e-9))));
 }
 
+std::vector<std::string> Summary::remarks() const {
+  std::vector<std::string> remarks = runRemarks(case_, steps_);
+  const std::string meet = mid_plane_.remark();
+  if (!meet.empty()) remarks.push_back(meet);
+  return remarks;
+}
+
 std::string Summary::json(const std::string& failure) const {
   Json j;
   j["status"] = failure.empty() ? "complete" : "failed";
@@ -206,7 +219,7 @@ std::string Summary::json(const std::string& failure) const {
   j["steps"] = steps_;
   j["flaps"] = flaps();
   j["free_steps"] = solved_.count;
-  j["remarks"] = failure.empty() ? runRemarks(case_, steps_) : std::vector<std::string>();
+  j["remarks"] = failure.empty() ? remarks() : std::vector<std::string>();
   const bool tumbled = tumbled_ != kNever;
   j["tumbled_from_step"] = tumbled ? Json(tumbled_) : Json();
   j["tumbled_from_flap"] = tumbled && flapOf(tumbled_) > 0 ? Json(flapOf(tumbled_)) : Json();
@@ -227,6 +240,8 @@ std::string Summary::json(const std::string& failure) const {
     j["theta_L_deg"] = degrees(theta_L_);
     j["roll_deg"] = degrees(roll_);
   }
+  if (!case_.insect.bare_wing)
+    j["mid_plane"] = {{"depth_m", mid_plane_.depth()}, {"share_of_steps", mid_plane_.share()}};
   if (case_.guidance.kind != GuidanceKind::kMotion) {
     j["guidance"] = {{"type", guidanceName(case_.guidance)},
                      {"clipped", guidance_.clipped},
