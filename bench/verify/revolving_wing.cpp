@@ -12,7 +12,7 @@ constexpr double kRoot = 0.2 * kLength;  // where the wing begins
 constexpr double kSpan = kLength - kRoot, kArea = kLength;
 constexpr double kRate = 1 / kLength;  // the tip moves at 1
 constexpr double kRamp = 2;            // time until the rate is constant
-constexpr double kCells[3] = {8, 11, 16}, kSpacing[3] = {1 / 8.0, 1 / 11.0, 1 / 16.0};
+constexpr double kCells[3] = {10, 14, 20}, kSpacing[3] = {1 / 10.0, 1 / 14.0, 1 / 20.0};
 
 /// Second moment of the ellipse's area about the axis.
 double secondMoment() {
@@ -83,14 +83,14 @@ void revolvingWing(Report& report) {
       report.state(at + "CL, robot", text("%g cells a chord", kCells[i]), c.lift, cl);
       report.state(at + "CD, robot", text("%g cells a chord", kCells[i]), c.drag, cd);
     }
-    report.near(at + "CL, robot", "16 cells a chord", c.lift, cl, 0.14);
-    report.near(at + "CD, robot", "16 cells a chord", c.drag, cd, 0.14);
-    report.state(at + "CL, 120 to 170 deg of travel", "16 cells a chord", c.late_lift, c.lift);
-    report.state(at + "CD, 120 to 170 deg of travel", "16 cells a chord", c.late_drag, c.drag);
+    report.near(at + "CL, robot", "20 cells a chord", c.lift, cl, 0.14);
+    report.near(at + "CD, robot", "20 cells a chord", c.drag, cd, 0.14);
+    report.state(at + "CL, 120 to 170 deg of travel", "20 cells a chord", c.late_lift, c.lift);
+    report.state(at + "CD, 120 to 170 deg of travel", "20 cells a chord", c.late_drag, c.drag);
     if (degrees != 45) continue;
     const Extrapolated l = extrapolate(kSpacing, lift), d = extrapolate(kSpacing, drag);
-    report.state(at + "CL against extrapolated", "16 cells a chord", lift[2], l.value);
-    report.state(at + "CD against extrapolated", "16 cells a chord", drag[2], d.value);
+    report.state(at + "CL against extrapolated", "20 cells a chord", lift[2], l.value);
+    report.state(at + "CD against extrapolated", "20 cells a chord", drag[2], d.value);
   }
 }
 
