@@ -1,43 +1,19 @@
 // Rectangle of aspect ratio 2 at Reynolds number 100 against an experiment and another code.
-#include <fstream>
-#include <sstream>
-
-#include "monarch_flight/math/errors.h"
 #include "verify/setup.h"
 #include "verify/subjects.h"
+#include "verify/table.h"
 
 namespace monarch_flight::verify {
 namespace {
 
 constexpr double kCells[3] = {12, 16, 22}, kSpacing[3] = {1 / 12.0, 1 / 16.0, 1 / 22.0};
 
-/// Linear interpolation in a table of angle [deg] and coefficient; NaN outside it.
-double measured(const char* file, double angle) {
-  std::ifstream in(std::string(VERIFY_DATA_DIR "/") + file);
-  if (!in) throw InputError(std::string("cannot read ") + VERIFY_DATA_DIR "/" + file);
-  double x0 = NAN, y0 = NAN;
-  for (std::string line; std::getline(in, line);) {
-    double x, y;
-    if (line[0] == '#' || !(std::istringstream(line) >> x >> y)) continue;
-    if (x >= angle && x0 <= angle) return y0 + (y - y0) * (angle - x0) / (x - x0);
-    x0 = x;
-    y0 = y;
-  }
-  return angle - x0 < 1 ? y0 : NAN;
-}
-
 struct Coefficients {
   double lift, drag, drift;  ///< drift: change of drag over the last two chords of travel
 };
 
 Coefficients steady(double degrees, double cells_per_chord, double far_field) {
-  GridSettings s = GridSettings::preset("preview");
-  s.level = "custom";
-  s.first_cell *= s.cells_per_chord / cells_per_chord;
-  s.growth_plane = s.growth_normal = 1 + (s.growth_plane - 1) * 16 / cells_per_chord;
-  s.cells_per_chord = cells_per_chord;
-  s.far_field = far_field;
-  s.courant_limit = kNoCourantLimit;
+  const GridSettings s = likePreview(cells_per_chord, far_field);
   const auto flow = makeNavierStokes(Planform::rectangle(1, 2, 0.5, -1), airOf(1, 0.01), s);
   const double angle = degrees * M_PI / 180;
   auto motion = [&](double t) {
@@ -62,8 +38,8 @@ Coefficients steady(double degrees, double cells_per_chord, double far_field) {
 /// Against what was measured: bounded on the finest grid, stated on the others.
 void compare(Report& report, double degrees, const std::string& resolution, bool finest,
              const Coefficients& c) {
-  const double cl = measured("flat_plate_ar2_re100_cl_vs_alpha.dat", degrees);
-  const double cd = measured("flat_plate_ar2_re100_cd_vs_alpha.dat", degrees);
+  const double cl = readTable("flat_plate_ar2_re100_cl_vs_alpha.dat").at(degrees);
+  const double cd = readTable("flat_plate_ar2_re100_cd_vs_alpha.dat").at(degrees);
   const std::string at = text("%g deg: ", degrees);
   auto row = [&](const char* name, double value, double reference, double scale) {
     if (finest) {

@@ -37,6 +37,19 @@ inline Axis uniformAxis(double low, double high, int n) {
   return Axis::fromFaces(f);
 }
 
+/// The `preview` layout with another number of cells, in every direction; no Courant limit.
+inline GridSettings likePreview(double cells_per_chord, double far_field) {
+  GridSettings s = GridSettings::preset("preview");
+  const double finer = cells_per_chord / s.cells_per_chord;
+  s.level = "custom";
+  s.cells_per_chord = cells_per_chord;
+  s.first_cell /= finer;
+  s.growth_plane = s.growth_normal = 1 + (s.growth_plane - 1) / finer;
+  s.far_field = far_field;
+  s.courant_limit = kNoCourantLimit;
+  return s;
+}
+
 /// 2 n uniform cells over [-core, core], then cells that grow by `ratio` out to `far` at least.
 inline Axis coreAxis(double core, int n, double ratio, double far) {
   std::vector<double> up{0.0};

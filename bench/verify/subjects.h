@@ -25,5 +25,8 @@ void rim(Report&);
 void stability(Report&);
 void monarchFlap(Report&);
 void outerBoundary(Report&);
+void discDrag(Report&);
+void pitchingRolling(Report&);
+void revolvingWing(Report&);
 
 }  // namespace monarch_flight::verify

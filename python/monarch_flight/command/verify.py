@@ -4,7 +4,8 @@ histories, an independent engine (docs/dynamics.md).
 
 monarch verify [NAME ...]
   of the flow: direct_solve added_mass uniform_stream affine taylor_green stokes blasius momentum_balance (the quick
-  ones, which run without a name), plate_re100 rim stability monarch_flap outer, or all
+  ones, which run without a name), plate_re100 disc_drag pitching_rolling revolving_wing rim stability monarch_flap
+  outer, or all
 monarch verify dynamics [NAME ...]
   reduced exact momentum energy newmark published simbody; without a name all of them
 monarch verify neighbours
