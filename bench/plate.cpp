@@ -16,44 +16,33 @@ using verify::oscillation;
 
 namespace {
 
-constexpr double kOmega = 2 * M_PI, kEnd = 0.75;  // period 1; chord 1, span 2, density 1
-constexpr double kViscosity = 0.02;               // as in bench/openfoam_plate
-constexpr double kEased = 0.25;                   // time in which a motion sets in
-constexpr double kCore = 0.25, kFar = 4;          // uniform cells beside the plate; outer boundary
-constexpr double kHeight = 0.6;                   // of the first cell by a cell of the core
+constexpr double kOmega = 2 * M_PI, kEnd = 0.5;  // period 1; chord 1, span 2, density 1
+constexpr double kCore = 0.25, kFar = 4;         // uniform cells beside the plate; outer boundary
+constexpr double kHeight = 0.6;                  // of the first cell by a cell of the core
 
-/// From 0 to 1 with two continuous derivatives, and those.
-Eigen::Vector3d easing(double t) {
-  if (t >= kEased) return {1, 0, 0};
-  const double q = t / kEased;
-  return {q * q * q * (10 + q * (6 * q - 15)), 30 * q * q * (1 - q) * (1 - q) / kEased,
-          60 * q * (1 - q) * (1 - 2 * q) / (kEased * kEased)};
-}
-
-/// Amplitude * sin(w t + phase), set in gradually, and two derivatives.
-Eigen::Vector3d eased(double amplitude, double t, double phase = 0) {
-  const Eigen::Vector3d f = oscillation(amplitude, kOmega, t, phase), e = easing(t);
-  return {e[0] * f[0], e[1] * f[0] + e[0] * f[1], e[2] * f[0] + 2 * e[1] * f[1] + e[0] * f[2]};
-}
-
+// Strokes from rest to rest: velocity begins at 0, acceleration at once.
 WingMotion heaving(double t) {
-  const Eigen::Vector3d z = eased(0.3, t);
+  const Eigen::Vector3d z = oscillation(0.3, kOmega, t, M_PI / 2);
   WingMotion m = verify::flapAndPitch(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                       {0, 0, z[1]}, {0, 0, z[2]});
   m.r_I = {0, 0, z[0]};
   return m;
 }
 
+/// Pitches up to mid-stroke and back, 0.6 sin^2(w t).
 WingMotion flapping(double t) {
-  return verify::flapAndPitch(eased(0.6, t), eased(0.6, t, M_PI / 2));
+  const Eigen::Vector3d pitch = oscillation(-0.3, 2 * kOmega, t, M_PI / 2);
+  return verify::flapAndPitch(oscillation(0.6, kOmega, t, M_PI / 2),
+                              pitch + Eigen::Vector3d(0.3, 0, 0));
 }
 
 struct Plate {
   double lead, root;  ///< of the rectangle 1 by 2, wing axes
+  double viscosity;   ///< Reynolds number of mid span at its fastest: 94 and 113
   WingMotion (*motion)(double t);
 };
-const std::map<std::string, Plate> kPlates = {{"heaving", {0.3, -1, heaving}},
-                                              {"flapping", {0.3, 0.5, flapping}}};
+const std::map<std::string, Plate> kPlates = {{"heaving", {0.3, -1, 0.02, heaving}},
+                                              {"flapping", {0.3, 0.5, 0.05, flapping}}};
 
 /// Rate of (e^(rate s) - 1) / rate, which begins as s, to be `length` at s = 1.
 double growth(double length) {
@@ -93,7 +82,7 @@ Grid gridOf(const Plate& plate, double cells) {
 
 nlohmann::json fly(const Plate& plate, Grid grid, double dt, int steps) {
   Air air;
-  air.rho = 1, air.mu = kViscosity;
+  air.rho = 1, air.mu = plate.viscosity;
   const double begin = cpuSeconds();
   fluid::NavierStokes flow(std::move(grid), air, 1, kCourantLimit);
   flow.start(plate.motion(0), dt);
@@ -126,7 +115,10 @@ int main(int argc, char** argv) {
     const std::string folder = argv[4];
     PolyMesh(grid).write(folder + "/constant/polyMesh");
     writeMotion(plate->second.motion, dt, steps + 1, folder + "/constant/motion.dat");
-    std::cout << nlohmann::json{{"cells", grid.cells()}, {"dt", dt}} << std::endl;
+    std::cout << nlohmann::json{{"cells", grid.cells()},
+                                {"dt", dt},
+                                {"nu", plate->second.viscosity}}
+              << std::endl;
   } else {
     std::cout << fly(plate->second, std::move(grid), dt, steps) << std::endl;
   }

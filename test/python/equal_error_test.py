@@ -47,7 +47,7 @@ class Costs(unittest.TestCase):
         self.assertAlmostEqual(equal_error.cost_at(0.001, costs, errors), 100.0)
         self.assertIsNone(equal_error.cost_at(0.2, costs, errors))
         self.assertIsNone(equal_error.cost_at(0.0005, costs, errors))
-        self.assertEqual(equal_error.cost_at(0.02, [1, 10, 100, 1000], [0.1, 0.001, 0.02, 0.01]), 10)
+        self.assertAlmostEqual(equal_error.cost_at(0.02, [1, 10, 100, 1000], [0.1, 0.001, 0.02, 0.01]), 10)
 
     def test_ratios_with_bounds(self):
         theirs = [50.0, 500.0, 5000.0], [1.0, 0.01, 1e-5]
