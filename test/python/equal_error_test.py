@@ -37,6 +37,7 @@ class Costs(unittest.TestCase):
     def test_errors_by_the_size_of_the_reference(self):
         np.testing.assert_allclose(equal_error.errors([1.1, 0.8], 1.0), [0.1, 0.2])
         np.testing.assert_allclose(equal_error.errors([[3.0, 5.0]], np.array([3.0, 4.0])), [0.2])
+        np.testing.assert_allclose(equal_error.errors([1.1], 1.0, scale=0.5), [0.2])
 
     def test_chance_counts_for_nothing(self):
         self.assertEqual(equal_error.lasting([0.1, 0.001, 0.02, 0.01]), [0.1, 0.02, 0.02, 0.01])

@@ -81,26 +81,31 @@ def theirs(plate, grid, out):
             "cpu_s": float(re.findall(r"ExecutionTime = (\S+) s", log)[-1])}
 
 
+def limits_of(runs):
+    """{quantity: {"ours": (limit, order), "theirs": ...}}, each code's by its own grids alone."""
+    return {quantity: {code: equal_error.limit([1 / run["grid"] for run in every], [run[quantity] for run in every])
+                       for code, every in runs.items()} for quantity in QUANTITIES}
+
+
 def compared(runs):
-    """What the runs of a plate, {"ours": [...], "theirs": [...]}, say of mean, peak and course."""
-    found = {}
-    for quantity in QUANTITIES:
-        limits, lines = {}, {}
-        for code, all_runs in runs.items():
-            value, order = equal_error.limit([1 / run["grid"] for run in all_runs], [run[quantity] for run in all_runs])
-            limits[code] = {"value": np.asarray(value).tolist(), "order": order}
-        common = 0.5 * (np.asarray(limits["ours"]["value"]) + np.asarray(limits["theirs"]["value"]))
-        for code, all_runs in runs.items():
-            four = [run for run in all_runs if run["grid"] in GRIDS]
-            values = [run[quantity] for run in four]
+    """What the runs of a plate, {"ours": [...], "theirs": [...]}, say of mean, peak and course. Errors are by the root mean
+    square of the force: from each code's own limit, and from the mean of both limits."""
+    found, every_limit = {}, limits_of(runs)
+    scale = equal_error.size(every_limit["course"]["ours"][0])
+    for quantity, limits in every_limit.items():
+        common = 0.5 * (limits["ours"][0] + limits["theirs"][0])
+        lines = {}
+        for code, every in runs.items():
+            four = [run for run in every if run["grid"] in GRIDS]
             lines[code] = {"cpu_s": [run["cpu_s"] for run in four],
-                           "own": equal_error.errors(values, limits[code]["value"]),
-                           "common": equal_error.errors(values, common)}
-        apart = equal_error.errors([limits["theirs"]["value"]], limits["ours"]["value"])[0]
-        ratios = {kind: equal_error.ratios(*[(lines[code]["cpu_s"], lines[code][kind]) for code in ("theirs", "ours")])
-                  for kind in ("own", "common")}
-        found[quantity] = {"limits": limits, "limits_apart": apart, "lines": lines, "ratios": ratios,
-                           "same_grid": [t / o for t, o in zip(lines["theirs"]["cpu_s"], lines["ours"]["cpu_s"])]}
+                           **{kind: equal_error.errors([run[quantity] for run in four], reference, scale)
+                              for kind, reference in (("own", limits[code][0]), ("common", common))}}
+        found[quantity] = {
+            "orders": {code: order for code, (_, order) in limits.items()}, "lines": lines,
+            "limits": {code: value.tolist() for code, (value, _) in limits.items()},
+            "limits_apart": equal_error.errors([limits["theirs"][0]], limits["ours"][0], scale)[0],
+            "ratios": {kind: equal_error.ratios(*[(lines[code]["cpu_s"], lines[code][kind]) for code in ("theirs", "ours")])
+                       for kind in ("own", "common")}}
     return found
 
 

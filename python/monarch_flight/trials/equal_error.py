@@ -41,9 +41,9 @@ def size(value):
     return float(np.sqrt(np.mean(np.square(value))))
 
 
-def errors(values, reference):
-    """Of each run: how far it is from the reference, by the reference's size."""
-    return [size(np.subtract(value, reference)) / size(reference) for value in values]
+def errors(values, reference, scale=None):
+    """Of each run: how far it is from the reference, by a scale, else by the reference's size."""
+    return [size(np.subtract(value, reference)) / (scale or size(reference)) for value in values]
 
 
 def lasting(errors_of_runs):
