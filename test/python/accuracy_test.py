@@ -57,6 +57,7 @@ class Comparison(unittest.TestCase):
         text = accuracy_table.figures({"processor": "one", "runs": {"heaving": self.runs}})
         self.assertIn("| heaving | 8 | 0.008 M, 40 | 40.96 | 0.41 | 100 |", text)
         self.assertIn("| heaving, mean | ", text)
+        self.assertEqual(accuracy_table.ratio_list([(0.1, 57.3, ">="), (0.01, 9.61, ""), (0.001, 3, "<=")], floor=0.002), "> 57, 9.6, -")
 
 
 if __name__ == "__main__":

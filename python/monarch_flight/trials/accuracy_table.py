@@ -14,8 +14,10 @@ def percent(value):
     return f"{100 * value:.2g} %"
 
 
-def ratio_list(ratios):
-    return ", ".join(f"{BOUNDS[bound]}{ratio:.2g}" if ratio < 10 else f"{BOUNDS[bound]}{ratio:.0f}" for _, ratio, bound in ratios)
+def ratio_list(ratios, floor=0):
+    """Ratios at the errors of the other's runs; none where the error is below what can be told."""
+    return ", ".join("-" if error < floor else BOUNDS[bound] + (f"{ratio:.2g}" if ratio < 10 else f"{ratio:.0f}")
+                     for error, ratio, bound in ratios)
 
 
 def runs_table(runs):
@@ -38,7 +40,7 @@ def errors_table(runs):
             orders = ["none" if one["orders"][code] is None else f"{one['orders'][code]:.1f}" for code in ("theirs", "ours")]
             rows.append([f"{plate}, {quantity}", ", ".join(f"{percent(line[0])} to {percent(line[-1])}" for line in lines),
                          ", ".join(orders), percent(one["limits_apart"]), ratio_list(one["ratios"]["own"]),
-                         ratio_list(one["ratios"]["common"])])
+                         ratio_list(one["ratios"]["common"], 0.5 * one["limits_apart"])])
     return table(["normal force", "error, 8 to 20 cells: OpenFOAM, ours", "order", "limits apart",
                   "OpenFOAM by ours at equal error, own limits", "the same, mean of both limits"], rows)
 
