@@ -2,13 +2,14 @@
 function(monarch_bench name)
   add_executable(monarch_bench_${name} EXCLUDE_FROM_ALL bench/${name}.cpp)
   set_target_properties(monarch_bench_${name} PROPERTIES OUTPUT_NAME bench_${name})
-  target_include_directories(monarch_bench_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_include_directories(monarch_bench_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR}/bench)
   target_compile_definitions(monarch_bench_${name} PRIVATE CONFIG_DIR="${CMAKE_CURRENT_SOURCE_DIR}/config")
   target_link_libraries(monarch_bench_${name} PRIVATE monarch_run nlohmann_json::nlohmann_json ${ARGN})
 endfunction()
 
 monarch_bench(flow)
 monarch_bench(openfoam_case)
+monarch_bench(plate)
 
 find_package(benchmark QUIET)
 if(benchmark_FOUND)

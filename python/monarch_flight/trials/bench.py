@@ -195,12 +195,12 @@ def foam(folder, command):
         return log.read()
 
 
-def set_entry(folder, key, value, name="controlDict"):
-    path = os.path.join(folder, "system", name)
+def set_entry(folder, key, value, name="system/controlDict"):
+    path = os.path.join(folder, name)
     with open(path) as f:
         text = f.read()
     with open(path, "w") as f:
-        f.write(re.sub(r"(?m)^%s .*;$" % key, "%s %.12g;" % (key, value), text))
+        f.write(re.sub(r"(?m)^%s .*?;" % key, "%s %.12g;" % (key, value), text))
 
 
 def openfoam_case(out, cells, steps):
@@ -220,7 +220,7 @@ def openfoam_steps(case, end, cores):
     processes wait busily."""
     set_entry(case, "endTime", end)
     if cores > 1 and not os.path.isdir(os.path.join(case, "processor0")):
-        set_entry(case, "numberOfSubdomains", cores, "decomposeParDict")
+        set_entry(case, "numberOfSubdomains", cores, "system/decomposeParDict")
         foam(case, "decomposePar")
     log = foam(case, "pimpleFoam" if cores == 1 else "mpirun --oversubscribe -np %d pimpleFoam -parallel" % cores)
     times = [float(t) for t in re.findall(r"ExecutionTime = (\S+) s", log)]
@@ -245,7 +245,13 @@ def openfoam(table, out, cells, rounds, steps):
 
 
 PROGRAMS = {"steps": ["flow"], "kernels": ["kernels"], "ranks": ["flow"], "threads": ["flow"], "hypre": ["hypre"],
-            "openfoam": ["flow", "openfoam_case"], "coupling": []}
+            "openfoam": ["flow", "openfoam_case"], "accuracy": ["plate"], "coupling": []}
+
+
+def accuracy(table, out):
+    from monarch_flight.figures import error_against_cost
+    from monarch_flight.trials import accuracy as stage
+    error_against_cost.draw(stage.measure(table, out), os.path.join(out, "bench_accuracy.png"))
 
 
 def measure(stages, out, given):
@@ -264,7 +270,8 @@ def measure(stages, out, given):
             "ranks": lambda: ranks(table, given.repeats),
             "coupling": lambda: coupling(table, out),
             "hypre": lambda: hypre(table, given.hypre_cells or [0.65e6]),
-            "openfoam": lambda: openfoam(table, out, given.cells, given.rounds, 4)}
+            "openfoam": lambda: openfoam(table, out, given.cells, given.rounds, 4),
+            "accuracy": lambda: accuracy(table, out)}
     for stage, measured in work.items():
         if stage in stages:
             measured()

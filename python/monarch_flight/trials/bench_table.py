@@ -46,17 +46,23 @@ def figures(measured):
                    if other else "")
 
 
+def parts(document, begin, end):
+    """Text of a document before, between and behind two lines."""
+    with open(document, encoding="utf-8") as file:
+        text = file.read()
+    if begin not in text or end not in text:
+        raise ValueError(f"{document}: has no place for the figures; it needs the lines\n{begin}{end}")
+    head, _, rest = text.partition(begin)
+    shown, _, tail = rest.partition(end)
+    return head, shown, tail
+
+
 def renew(document, results):
     """Writes the tables of `results` (bench.json) between the marks of the document: in place of those of the same
     processor, beside those of others."""
     with open(results, encoding="utf-8") as file:
         text = figures(json.load(file))
-    with open(document, encoding="utf-8") as file:
-        before = file.read()
-    if BEGIN not in before or END not in before:
-        raise ValueError(f"{document}: has no place for the figures; it needs the lines\n{BEGIN}{END}")
-    head, _, rest = before.partition(BEGIN)
-    shown, _, tail = rest.partition(END)
+    head, shown, tail = parts(document, BEGIN, END)
     ours = text[:text.index(",")]
     others = [block.rstrip() + "\n" for block in re.split("(?m)^(?=Processor: )", shown)
               if block.startswith("Processor: ") and not block.startswith(ours + ",")]
