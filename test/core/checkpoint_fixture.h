@@ -117,8 +117,9 @@ class Checkpointed : public CaseTest {
   void expectSameFlight(const std::string& a, const std::string& b) const {
     EXPECT_EQ(summary(a)["state_sha256"], summary(b)["state_sha256"]);
     EXPECT_EQ(read(a, "flight.csv"), read(b, "flight.csv"));
-    for (const char* key : {"steps", "sub_iterations", "fluid_evaluations", "added_mass_ratio",
-                            "air_work_J", "climb_angle_deg", "theta_B_deg", "theta_R_deg"})
+    for (const char* key :
+         {"steps", "sub_iterations", "fluid_evaluations", "added_mass_ratio", "air_work_J",
+          "climb_angle_deg", "theta_B_deg", "theta_R_deg", "mid_plane"})
       EXPECT_EQ(summary(a)[key], summary(b)[key]) << key;
   }
   std::string problemOfResuming(const Case& c, const std::string& name) const {

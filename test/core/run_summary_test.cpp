@@ -52,39 +52,53 @@ TEST(SummaryRemarks, ARunWithoutAFreeStepSaysSo) {
   EXPECT_EQ(summaryOf(c, level).at("remarks").size(), 0u);
 }
 
-TEST(SummaryMidPlane, TellsHowFarTheWingsPassThroughIt) {
-  Case c = loadCase("climb_trimmed", {{"flaps", "1"}}, CONFIG_DIR);
-  c.coupling.prescribed_steps = 0;
-  const Planform& wing = c.insect.wings.right.planform;
-  const double root = c.insect.wings.right.plate.mu.y();
-  // Flapped by an angle of 80 deg upwards, straight out, the tip is far from the plane; by 100 deg
-  // it is beyond it by span * sin(10 deg) - root.
-  const auto flapped = [&](double phi, double psi) {
-    Summary summary(c);
-    for (std::uint32_t n = 0; n <= 4; ++n) {
+class SummaryMidPlane : public testing::Test {
+ protected:
+  SummaryMidPlane()
+      : case_(loadCase("climb_trimmed", {{"flaps", "1"}, {"wings", "independent"}}, CONFIG_DIR)) {
+    case_.coupling.prescribed_steps = 0;
+  }
+  /// Of five steps with wings straight out, flapped by these angles in those of `beyond`.
+  nlohmann::json flapped(double right, double left, std::uint32_t beyond = 1) const {
+    Summary summary(case_);
+    for (std::uint32_t n = 0; n < 5; ++n) {
       CommittedStep s = stepAt(n);
       s.angles = {};
-      s.angles.wings.right.phi.q = n == 2 ? phi : 0.0;
-      s.angles.wings.right.psi.q = n == 2 ? psi : 0.0;
-      s.angles.wings.left = s.angles.wings.right;
+      s.angles.wings.right.phi.q = n < beyond ? right : 0.0;
+      s.angles.wings.left.phi.q = n < beyond ? left : 0.0;
       summary.add(s);
     }
     return nlohmann::json::parse(summary.json(""));
-  };
-  const auto y = [&](double phi, double at) { return root + at * std::cos(phi); };
-  ASSERT_GT(y(80 * kDegree, wing.yTip()), 0.0);
-  nlohmann::json j = flapped(80 * kDegree, 0.0);
-  EXPECT_EQ(j.at("mid_plane").at("depth_m"), 0.0);
-  EXPECT_EQ(j.at("remarks").size(), 0u);
-  const double angle = 100 * kDegree, depth = -y(angle, wing.yTip());
-  ASSERT_GT(depth, 0.0);
-  for (const double phi : {angle, -angle}) {
-    j = flapped(phi, 0.0);
-    EXPECT_NEAR(j.at("mid_plane").at("depth_m"), depth, 1e-12);
-    EXPECT_NEAR(j.at("mid_plane").at("share_of_steps"), 0.2, 1e-12);
-    ASSERT_EQ(j.at("remarks").size(), 1u);
-    expectHas(j.at("remarks").at(0), "the wings pass through the insect's mid-plane by up to ");
   }
+  /// Of the tip of a wing that is flapped by phi.
+  double depth(double phi) const {
+    const Wing& wing = case_.insect.wings.right;
+    return -wing.plate.mu.y() - wing.planform.yTip() * std::cos(phi);
+  }
+
+  Case case_;
+};
+
+TEST_F(SummaryMidPlane, WingsThatStayOnTheirSideAreNoMatter) {
+  ASSERT_LT(depth(80 * kDegree), 0.0);
+  const nlohmann::json j = flapped(80 * kDegree, -80 * kDegree);
+  EXPECT_EQ(j.at("mid_plane").at("depth_m"), 0.0);
+  EXPECT_EQ(j.at("mid_plane").at("share_of_steps"), 0.0);
+  EXPECT_EQ(j.at("remarks").size(), 0u);
+}
+
+TEST_F(SummaryMidPlane, TellsHowFarAWingPassesThroughIt) {
+  const double over = 100 * kDegree;
+  ASSERT_GT(depth(over), 0.0);
+  for (const auto& [right, left] : {std::pair{over, 0.0}, {-over, 0.0}, {0.0, over}, {0.0, -over}})
+    for (const std::uint32_t steps : {1u, 5u}) {
+      const nlohmann::json j = flapped(right, left, steps);
+      EXPECT_NEAR(j.at("mid_plane").at("depth_m"), depth(over), 1e-12);
+      EXPECT_NEAR(j.at("mid_plane").at("share_of_steps"), steps / 5.0, 1e-12);
+      ASSERT_EQ(j.at("remarks").size(), 1u);
+      expectHas(j.at("remarks").at(0), "the wings pass through the insect's mid-plane by up to ");
+      expectHas(j.at("remarks").at(0), steps == 5 ? "in 100.0 % of" : "in 20.0 % of");
+    }
 }
 
 TEST(SummaryTumbled, NamesTheFirstFlapBeyondSixtyDegrees) {

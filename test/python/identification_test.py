@@ -114,6 +114,16 @@ class Confidence(unittest.TestCase):
             r.append(rho * r[-1] + value)
         self.assertAlmostEqual(confidence.correlation_time(r) / ((1 + rho) / (1 - rho)), 1.0, delta=0.1)
 
+    def test_angles_off_by_different_amounts_are_counted_one_by_one(self):
+        rng = np.random.default_rng(2)
+
+        def noise(mean):
+            t = np.arange(500.0)
+            return fit.Comparison("theta_R", 1.0, t, t, mean + rng.normal(size=500), np.zeros(500), float("nan"))
+        together = fit.Comparisons([noise(3.0), noise(0.0)])
+        self.assertLess(1000 / confidence.correlation_time(together.residuals), 100)
+        self.assertGreater(together.independent, 600)
+
 
 class Search(Folder):
     def test_known_values_are_found(self):
@@ -187,7 +197,7 @@ class Search(Folder):
         self.assertRegex(words[1], r"root/0 0.001, theta_0 0.1: rms \S+ deg \(theta_R \S+, theta_B \S+\)")
         case = wanted.content(found.stage, found.values)
         self.assertEqual(case["insect"]["wing"]["root"], [found.values[1], 2e-3, 0.0])
-        known = confidence.confidence(found.jacobian, found.comparisons.residuals)
+        known = confidence.confidence(found.jacobian, found.comparisons.residuals, found.comparisons.independent)
         text = report.case(wanted, [found], known)
         self.assertIn("theta_R of measured.csv and theta_B (weight 0.5) of body.csv", text)
         self.assertIn("# status: place 0, fitted within -0.004 to 0.004", text)
@@ -199,7 +209,7 @@ class Search(Folder):
 
     def test_the_case_tells_where_its_values_come_from(self):
         wanted, found, _ = self.search()
-        known = confidence.confidence(found[-1].jacobian, found[-1].comparisons.residuals)
+        known = confidence.confidence(found[-1].jacobian, found[-1].comparisons.residuals, found[-1].comparisons.independent)
         text = report.case(wanted, found, known)
         path = self.folder / "found.yaml"
         path.write_text(text, encoding="utf-8")
@@ -245,6 +255,8 @@ class Faults(Folder):
                                                                      unknown={"insect/wing/root/3": dict(start=1, range=[0, 2])}))
 
     def test_a_key_below_a_number(self):
+        self.assertIn("insect/wing/root/0: root is no list of the case",
+                      self.faults(unknown={"insect/wing/root/0": dict(start=0, range=[-1, 1])}))
         self.assertIn("insect/preset/x: preset is no section", self.faults(unknown={"insect/preset/x": dict(start=1, range=[0, 2])}))
 
     def test_the_command(self):

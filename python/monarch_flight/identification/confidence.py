@@ -11,7 +11,7 @@ class Confidence:
     """All in shares of the unknowns' ranges."""
     independent: float  # residuals that count as independent of each other
     covariance: np.ndarray
-    singular_values: np.ndarray  # change of the angle [deg, rms] for a range's length along each combination
+    singular_values: np.ndarray  # change of the weighted angles [deg, rms] for a range's length along each combination
     combinations: np.ndarray  # rows: the direction of each of them
 
     @property
@@ -47,11 +47,10 @@ def correlation_time(residuals):
 
 def confidence(jacobian, residuals, independent=None):
     """Of N `residuals` r (flown less measured) with derivatives `jacobian` J by the p unknowns, as if r were noise of
-    which n values are independent: covariance = |r|^2 / (N (n - p)) (J^T J / N)^-1, for n = N the usual one. Without
-    `independent` n is N divided by the correlation time of r, at least p + 1."""
+    which n = `independent` are independent, at least p + 1: covariance = |r|^2 / (N (n - p)) (J^T J / N)^-1, for n = N the usual one."""
     J, r = np.asarray(jacobian, float), np.asarray(residuals, float)
     N, p = J.shape
-    n = float(independent) if independent is not None else max(p + 1.0, N / correlation_time(r))
+    n = max(p + 1.0, float(independent))
     _, values, combinations = np.linalg.svd(J / np.sqrt(N), full_matrices=False)
     told = np.maximum(values, 1e-9 * max(values[0], 1e-300))  # what is not seen at all is very uncertain, not infinitely
     covariance = float(r @ r) / (N * (n - p)) * (combinations.T / told ** 2) @ combinations

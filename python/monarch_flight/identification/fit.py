@@ -4,6 +4,7 @@ import dataclasses
 import numpy as np
 from scipy.optimize import least_squares
 
+from monarch_flight.identification.confidence import correlation_time
 from monarch_flight.identification.flights import Failed
 
 TOLERANCE = 1e-4  # relative change of the sum of squares, and of the unknowns in shares of their ranges, at the end
@@ -51,6 +52,11 @@ class Comparisons:
     @property
     def rms(self):
         return float(np.sqrt(np.mean(self.residuals ** 2)))
+
+    @property
+    def independent(self):
+        """Residuals that count as independent of each other, of each angle by itself."""
+        return sum(len(one.t) / correlation_time(one.residuals) for one in self.angles)
 
 
 @dataclasses.dataclass

@@ -20,7 +20,8 @@ def identify(study, out, jobs, threads, most):
     except fit.NoWay as end:
         print(f"identify: {end}", file=sys.stderr)
         return FAILED
-    known = confidence.confidence(found[-1].jacobian, found[-1].comparisons.residuals)
+    last = found[-1]
+    known = confidence.confidence(last.jacobian, last.comparisons.residuals, last.comparisons.independent)
     write(study, found, known, out)
     tell(f"\n{report.text(study, found, known)}\n\n{flown.flown} flights flown; case, identification.yaml, identification.txt and "
          f"residual.png are in {out}")

@@ -20,7 +20,7 @@ def flaps(study):
     return ("flap " if len(study.flaps) == 1 else "flaps ") + ", ".join(map(str, study.flaps))
 
 
-def sought(study):
+def measured_words(study):
     """The angles and where they were measured, in words."""
     by_source = {}
     for one in study.measured:
@@ -51,7 +51,7 @@ def case(study, found, known):
     comments |= {key: "\n".join(lines) for key, lines in fitted.items()}
     origin = study.origin.relative_to(places.share()) if study.origin.is_relative_to(places.share()) else study.origin.name
     made = (f"# Made by monarch identify (docs/identification.md) from {origin}: {names}\n"
-            f"# fitted together to {sought(study)}, {flaps(study)}; {described(last.stage)}.\n")
+            f"# fitted together to {measured_words(study)}, {flaps(study)}; {described(last.stage)}.\n")
     for one in last.comparisons.angles:
         ratio, ahead = one.fundamental()
         made += f"# {one.angle}: rms {one.rms:.2f} deg, fundamental {ratio:.3f} of the measured one, {ahead:+.1f} deg ahead.\n"
@@ -102,7 +102,7 @@ def text(study, found, known):
     """identification.txt: stages, values with their confidence, what is determined."""
     last, names = found[-1], [unknown.short for unknown in study.unknowns]
     width = max(map(len, names)) + 2
-    lines = [f"{sought(study)} against {study.case.get('name')}, {flaps(study)}", "",
+    lines = [f"{measured_words(study)} against {study.case.get('name')}, {flaps(study)}", "",
              f"{'stage':26s}{'angle':>8s}{'rms deg':>9s}{'ratio':>8s}{'ahead deg':>11s}{'repeats deg':>13s}{'mean deg':>10s}{'swing deg':>11s}"]
     for one in found:
         for comparison in one.comparisons.angles:

@@ -80,9 +80,11 @@ def place(content, key, value):
     """Puts a value at a key of a case. Raises Refused where the path leads through a number."""
     *above, last = key.split("/")
     for n, step in enumerate(above):
-        content = content[item(content, step, key)] if isinstance(content, list) else content.setdefault(step, {})
+        content = content.setdefault(step, {})
         if not isinstance(content, dict) and not (isinstance(content, list) and n + 1 == len(above)):
             raise Refused(f"{key}: {step} is no section of the case; give a key as docs/case_files.md has it")
+    if last.isdecimal() and not isinstance(content, list):
+        raise Refused(f"{key}: {above[-1] if above else key} is no list of the case (one of its preset does not count); give the whole list by set first")
     content[item(content, last, key) if isinstance(content, list) else last] = copy.deepcopy(value)
 
 

@@ -82,6 +82,7 @@ def tested(root, sanitizers, arguments):
     preparing.installed("fly", "check", "report")
     preparing.built("--tests", *options)
     environment = dict(preparing.one_threaded(), PATH=system_path())
+    # One more than cores: many tests wait for nodes most of their time.
     command = ["ctest", "-j", str((os.cpu_count() or 1) + 1), "--output-on-failure", "--no-tests=error", *arguments]
     ctest = subprocess.Popen(command, cwd=build, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                              text=True, errors="replace")

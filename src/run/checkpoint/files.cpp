@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 4;
+constexpr int kFormat = 5;
 constexpr std::size_t kKept = 2;
 constexpr char kManifest[] = "/manifest.json";
 constexpr char kPrefix[] = "step_";

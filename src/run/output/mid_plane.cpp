@@ -1,6 +1,7 @@
 #include "monarch_flight/run/mid_plane.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <sstream>
 
 namespace monarch_flight {
@@ -8,6 +9,7 @@ namespace {
 
 constexpr double kInner = 0.1;  // of the span: at the root the wings stand beside each other
 constexpr int kStations = 32;
+constexpr double kRounding = 1e-9;  // of the span
 
 std::vector<Eigen::Vector3d> rim(const Planform& wing) {
   std::vector<Eigen::Vector3d> points;
@@ -34,6 +36,7 @@ void MidPlane::add(const CommittedStep& step) {
     const double root = insect_.wings[side].plate.mu.y();
     for (const Eigen::Vector3d& point : rim_[side])
       depth = std::max(depth, -root - R_BW.row(1).dot(point));
+    if (depth < kRounding * insect_.wings[side].planform.span()) depth = 0.0;
   }
   ++steps_;
   beyond_ += depth > 0.0 ? 1 : 0;
@@ -49,11 +52,11 @@ void MidPlane::memory(StateVisitor& state) {
 std::string MidPlane::remark() const {
   if (depth_ == 0.0) return "";
   std::ostringstream text;
-  text.precision(2);
-  text << "the wings pass through the insect's mid-plane by up to " << 1e3 * depth_ << " mm, in "
+  text << std::fixed << std::setprecision(1)
+       << "the wings pass through the insect's mid-plane by up to " << 1e3 * depth_ << " mm, in "
        << 100 * share()
-       << " % of the steps: flat wings meet there and each one's air does not know "
-       << "the other; loads near that part of the stroke are not to be trusted "
+       << " % of the steps: flat wings meet there, and the flow of each wing is solved alone; "
+       << "loads near that part of the stroke are not to be trusted "
        << "(docs/validation.md, What is not modelled)";
   return text.str();
 }
