@@ -1,7 +1,6 @@
 // A heaving and a flapping plate: our flow solver's normal force at each step and its computing
 // time as one line of JSON, or the same grid and motion as a case of OpenFOAM.
 #include <cstdlib>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>

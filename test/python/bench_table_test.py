@@ -10,7 +10,8 @@ from monarch_flight.trials import bench_table  # noqa: E402
 
 ROWS = [{"name": "processor", "value": "one of mine", "unit": "", "bar": None, "at_least": False, "pass": None},
         {"name": "ns_per_cell_full_solve_at_0.65M", "value": 51.25, "unit": "ns", "bar": None, "at_least": False, "pass": None},
-        {"name": "threads_2_speedup_at_2.5M", "value": 1.5, "unit": "", "bar": 1.75, "at_least": True, "pass": False}]
+        {"name": "threads_2_speedup_at_2.5M", "value": 1.5, "unit": "", "bar": 1.75, "at_least": True, "pass": False},
+        {"name": "accuracy_heaving_mean_cost_ratio", "value": 57, "unit": "", "bar": 100, "at_least": True, "pass": False}]
 
 
 def renewed(document):
@@ -31,6 +32,7 @@ class Figures(unittest.TestCase):
         for line in ("Processor: one of mine", "| full solve, best | - | 51.2 | - | - |",
                      "| `threads_2_speedup_at_2.5M` | 1.5 | >= 1.75, missed |"):
             self.assertIn(line, text)
+        self.assertNotIn("accuracy", text)  # stands in the section made from accuracy.json
 
     def test_of_other_processors_stay(self):
         text = renewed("before\n" + bench_table.BEGIN + "Processor: another one, 2 cores\n\nits table\n\nProcessor: one of mine, 2 cores\n\n"

@@ -13,20 +13,32 @@ H = [1 / 8, 1 / 12, 1 / 16, 1 / 24]
 
 
 class Limits(unittest.TestCase):
-    def test_of_a_number_and_of_a_course(self):
+    def test_of_a_number_and_of_a_history(self):
         for p in (0.8, 1.0, 2.0):
             value, order = equal_error.limit(H, [3 - 2 * h ** p for h in H])
             self.assertAlmostEqual(value, 3)
             self.assertAlmostEqual(order, p)
-            course, way = np.array([1.0, -2.0, 4.0]), np.array([0.5, 1.0, -0.2])
-            found, order = equal_error.limit(H, [course + h ** p * way for h in H])
-            np.testing.assert_allclose(found, course)
+            history, way = np.array([1.0, -2.0, 4.0]), np.array([0.5, 1.0, -0.2])
+            found, order = equal_error.limit(H, [history + h ** p * way for h in H])
+            np.testing.assert_allclose(found, history)
             self.assertAlmostEqual(order, p)
 
     def test_without_convergence_have_no_order(self):
         value, order = equal_error.limit(H, [1.0, 1.0, 1.2, 1.1])
         self.assertIsNone(order)
         self.assertAlmostEqual(value, 0.9)  # first order from the two finest
+
+    def test_without_an_observed_order_take_the_assumed(self):
+        value, order = equal_error.limit(H, [1.0, 1.0, 1.2, 1.1], 2.0)
+        self.assertIsNone(order)
+        self.assertAlmostEqual(value, 1.1 - 0.1 * 0.8)
+        slow = [3 - 2 * h ** 0.2 for h in H]
+        value, order = equal_error.limit(H, slow)
+        self.assertAlmostEqual(order, 0.2)
+        share = H[3] ** 0.5 / (H[2] ** 0.5 - H[3] ** 0.5)  # 0.2 is below those that count: 0.5
+        self.assertAlmostEqual(value, slow[3] + share * (slow[3] - slow[2]))
+        self.assertAlmostEqual(equal_error.limit(H, slow, 1.0)[0], slow[3] + 2 * (slow[3] - slow[2]))
+        self.assertAlmostEqual(equal_error.limit(H, [3 - 2 * h ** 1.5 for h in H], 2.0)[0], 3)  # 1.5 is observed
 
     def test_of_equal_runs(self):
         value, order = equal_error.limit(H, [2.0] * 4)

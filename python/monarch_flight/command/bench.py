@@ -1,6 +1,6 @@
 """Measures speed, stage by stage: steps (whole steps of the flow solver on four grids), kernels (beside triad and
 dgemm), threads and ranks (two threads, two processes against one), coupling (exchanges over topics), and beside peers: hypre, openfoam,
-accuracy (error against cost of two plates, half an hour of OpenFOAM) (docs/performance.md).
+accuracy (error against cost of two plates, 16 minutes of OpenFOAM) (docs/performance.md).
 
 A peer is installed with apt when it is asked for. CPU times of one core; the quieter the machine, the better they
 repeat. Without a stage: steps, kernels, threads, ranks, and the peers given."""

@@ -3,7 +3,7 @@ from matplotlib import pyplot as plt
 
 from monarch_flight.figures.style import GREY, OURS, THEIRS
 
-TITLES = {"mean": "mean of the normal force", "peak": "its peak", "course": "its course"}
+TITLES = {"mean": "mean of the normal force", "peak": "its peak", "history": "its history"}
 CODES = {"theirs": ("OpenFOAM", THEIRS), "ours": ("monarch_flight", OURS)}
 KINDS = {"own": dict(marker="o", ms=4, ls="-"), "common": dict(marker="o", ms=3, ls=":", lw=1.1, mfc="white")}
 

@@ -38,12 +38,18 @@ class Table:
     def __init__(self, path):
         self.path, self.rows = path, []
 
-    def add(self, name, value, unit, bar=None, at_least=False):
-        good = None if bar is None else bool(value >= bar if at_least else value <= bar)
-        self.rows.append({"name": name, "value": value, "unit": unit, "bar": bar, "at_least": at_least, "pass": good})
-        bound = "" if bar is None else ("%s %g" % (">=" if at_least else "<=", bar))
-        print("%-42s %12s %-12s %-10s %s" % (name, value if isinstance(value, str) else "%.5g" % value, unit, bound, {None: "", True: "ok", False: "MISSED"}[good]),
-              flush=True)
+    def add(self, name, value, unit, bar=None, at_least=False, bound="", doubt=""):
+        """`bound`: '>=' or '<=' where the value is only a bound of the true one. `doubt`: why the value proves nothing; it
+        then meets no bar, nor does a bound on the wrong side."""
+        if bar is not None and bound == ("<=" if at_least else ">="):
+            doubt = doubt or "only a bound"
+        good = None if bar is None else bool(not doubt and (value >= bar if at_least else value <= bar))
+        self.rows.append({"name": name, "value": value, "unit": unit, "bar": bar, "at_least": at_least, "pass": good,
+                          **({"bound": bound} if bound else {}), **({"doubt": doubt} if doubt else {})})
+        shown = value if isinstance(value, str) else (bound + " %.5g" % value).strip()
+        asked = "" if bar is None else ("%s %g" % (">=" if at_least else "<=", bar))
+        verdict = {None: "", True: "ok", False: "MISSED" + (doubt and ": " + doubt)}[good]
+        print("%-42s %12s %-12s %-10s %s" % (name, shown, unit, asked, verdict), flush=True)
 
     def all(self):
         kept = []

@@ -15,7 +15,9 @@ def table(head, rows):
 
 
 def figures(measured):
-    """Markdown of the rows of bench.json; what was not measured is left out."""
+    """Markdown of the rows of bench.json; what was not measured is left out, and those of accuracy, which have tables of
+    their own (accuracy_table.py)."""
+    measured = [row for row in measured if not row["name"].startswith("accuracy_")]
     values = {row["name"]: row["value"] for row in measured}
 
     def shown(name, form="%.3g"):

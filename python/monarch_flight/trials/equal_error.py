@@ -1,11 +1,12 @@
 """Cost at equal error of two codes that each ran a case on several grids (docs/performance.md, error against cost)."""
 import numpy as np
 
-ORDERS = (0.5, 3.0)  # an observed order is believed within these
+ORDERS = (0.5, 3.0)   # an order counts as observed within these
+ASSUMED = (1.0, 2.0)  # orders to try where none is observed
 
 
 def order_of(spacings, values):
-    """Order of convergence that three runs show, or None where they do not converge. Values may be courses: then it is
+    """Order of convergence that three runs show, or None where they do not converge. Values may be histories: then it is
     the share of the second change in the first one that counts."""
     first, second = (np.ravel(np.subtract(values[i], values[i + 1])) for i in (0, 1))
     square = second @ second
@@ -26,18 +27,26 @@ def order_of(spacings, values):
     return low
 
 
-def limit(spacings, values):
-    """(limit for spacing 0, order or None) by Richardson from the three finest runs; without an order, with 1. Runs stand
-    from coarse to fine."""
+def observed(order):
+    return order is not None and ORDERS[0] <= order <= ORDERS[1]
+
+
+def limit(spacings, values, assumed=None):
+    """(limit for spacing 0, order that the runs show or None) by Richardson from the three finest runs; runs stand from
+    coarse to fine. Where no order is observed, with the order `assumed`; by default 1 for runs that do not converge, and the
+    nearer end of ORDERS for those that show an order beyond them."""
     h, f = np.asarray(spacings[-3:], dtype=float), [np.asarray(value, dtype=float) for value in values[-3:]]
     order = order_of(h, f)
-    p = 1.0 if order is None else float(np.clip(order, *ORDERS))
+    if observed(order) or assumed is None:
+        p = 1.0 if order is None else float(np.clip(order, *ORDERS))
+    else:
+        p = assumed
     share = h[2] ** p / (h[1] ** p - h[2] ** p)
     return f[2] + share * (f[2] - f[1]), order
 
 
 def size(value):
-    """Root of the mean square of a course, magnitude of a number."""
+    """Root of the mean square of a history, magnitude of a number."""
     return float(np.sqrt(np.mean(np.square(value))))
 
 
@@ -47,8 +56,8 @@ def errors(values, reference, scale=None):
 
 
 def lasting(errors_of_runs):
-    """The largest error of each run and all finer ones: a run that is right by chance, where the error changes its sign,
-    counts no better than the next finer one."""
+    """The largest error of each run and all finer ones: so a run that is right by chance, because its error changes the
+    sign there, gains nothing."""
     return [max(errors_of_runs[i:]) for i in range(len(errors_of_runs))]
 
 
