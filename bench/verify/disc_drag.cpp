@@ -1,5 +1,5 @@
 // Drag of a disc that moves along its axis, against an experiment and a published fit. Bounds:
-// docs/verification.md, "Other wings".
+// docs/verification.md, "References from outside".
 #include "verify/setup.h"
 #include "verify/subjects.h"
 #include "verify/table.h"

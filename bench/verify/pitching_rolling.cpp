@@ -1,5 +1,5 @@
 // Circular plate that rolls about its root and pitches about its mid-chord in a stream, Re 200,
-// against two other codes. Bounds: docs/verification.md, "Other wings".
+// against two other codes. Bounds: docs/verification.md, "References from outside".
 #include "verify/setup.h"
 #include "verify/subjects.h"
 #include "verify/table.h"
@@ -10,7 +10,7 @@ namespace {
 constexpr double kReynolds = 200, kStrouhal = 0.6, kAmplitude = M_PI / 4;
 constexpr double kSpan = M_PI / 4 * 1.27, kArea = M_PI / 4 * kSpan;  // chord and speed are 1
 constexpr double kOmega = 2 * M_PI * kStrouhal / (2 * kAmplitude * 0.5 * kSpan);
-constexpr int kPeriods = 4;
+constexpr int kPeriods = 4;  // the codes compared with publish their fifth
 constexpr double kCells[3] = {10, 14, 20}, kSpacing[3] = {1 / 10.0, 1 / 14.0, 1 / 20.0};
 
 /// Coefficients over the last period and the mean thrust of the one before.
@@ -63,7 +63,8 @@ double rms(const std::vector<double>& f) {
 }
 
 /// Root mean square of the difference to a published history over that of the history. Value i
-/// belongs to the time (i + 1) / size of the period; the published one is the fifth.
+/// belongs to the time (i + 1) / size of the period: ours is the fourth, the published one the
+/// fifth, t / T from 4 to 5.
 double difference(const std::vector<double>& f, const char* file) {
   const Table table = readTable(file);
   std::vector<double> gap, scale;
@@ -76,6 +77,7 @@ double difference(const std::vector<double>& f, const char* file) {
   return rms(gap) / rms(scale);
 }
 
+/// Our fourth period is drawn at the place of the published fifth, t / T from 4 to 5.
 void histories(Report& report, const Cycle& c, const std::string& resolution) {
   const struct {
     const char *name, *file;

@@ -1,5 +1,5 @@
 // Wing that revolves about its root at a constant angle of attack, Re 136, against fits to the
-// forces of a robot's wing. Bounds: docs/verification.md, "Other wings".
+// forces of a robot's wing. Bounds: docs/verification.md, "References from outside".
 #include "verify/setup.h"
 #include "verify/subjects.h"
 
@@ -9,12 +9,15 @@ namespace {
 constexpr double kRamp = 2;  // time until the rate is constant
 constexpr double kCells[3] = {10, 14, 20}, kSpacing[3] = {1 / 10.0, 1 / 14.0, 1 / 20.0};
 
-/// Speed of the tip and area / length are 1.
+/// Speed of the tip and area / length, with the length from the axis, are 1: the mean chord of the
+/// Reynolds number and of `length`. The grid counts cells and the box in area / span, the chord of
+/// the wing alone: 1.25 for a root at 0.2, so 10 cells a chord are 8 for each unit of length, and
+/// the Reynolds number is 170 by that chord. Which one the source means is not known.
 struct Wing {
-  double reynolds = 136;
+  double reynolds = 136;  ///< by area / length
   double length = 3.54;   ///< axis to tip
   double root = 0.2;      ///< where the wing begins, in lengths
-  double far_field = 10;  ///< mean chords
+  double far_field = 10;  ///< area / span
   double span() const { return (1 - root) * length; }
   double rate() const { return 1 / length; }
   /// Of the ellipse's area about the axis.
