@@ -9,6 +9,6 @@ add_dependencies(monarch_ros_hostile_test monarch_own_guidance_node)
 foreach(source ${flight_tests})
   get_filename_component(name ${source} NAME_WE)
   add_test(NAME flight_${name} COMMAND ${PYTHON_EXECUTABLE} ${source} -v)
-  set_tests_properties(flight_${name} PROPERTIES TIMEOUT 400 LABELS flight
+  set_tests_properties(flight_${name} PROPERTIES TIMEOUT 400 COST 100 LABELS flight  # the longest first
     ENVIRONMENT "MONARCH_BUILD=${CMAKE_BINARY_DIR};MONARCH_INSTALL=${CMAKE_INSTALL_PREFIX};PYTHONPATH=${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION}:$ENV{PYTHONPATH}")
 endforeach()
