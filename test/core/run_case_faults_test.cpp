@@ -101,10 +101,10 @@ TEST_F(CaseTest, PrescribedFlapsThatAreNone) {
 
 TEST_F(CaseTest, FilesAndNames) {
   expectHas(faults("nope"),
-            "one of climb, climb_controlled, climb_fwuav, climb_printed, climb_settled, "
-            "climb_standard, climb_trimmed, climb_turning, cruise_bumblebee, hinge, "
+            "one of climb, climb_controlled, climb_fwuav, climb_measured, climb_printed, "
+            "climb_settled, climb_standard, climb_trimmed, climb_turning, cruise_bumblebee, hinge, "
             "hover_fruit_fly, hover_hawkmoth, measured_motion, passive_pitch, "
-            "passive_pitch_identified, plate_re100, tethered_fwuav");
+            "passive_pitch_heaving, passive_pitch_identified, plate_re100, tethered_fwuav");
   expectHas(faults("/nonexistent/case.yaml"), "/nonexistent/case.yaml does not exist");
   expectHas(faults(write("syntax.yaml", "a: [1\n")), "is not YAML");
   expectHas(faults(write("list.yaml", "[1, 2]\n")), "holds no keys");

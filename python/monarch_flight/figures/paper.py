@@ -10,7 +10,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from monarch_flight import places
 from monarch_flight.figures import data
-from monarch_flight.figures.control import figure_control
+from monarch_flight.figures.control import air, figure_control
 from monarch_flight.figures.style import FAINT, GREY, MEASURED, OURS, THEIRS, THIRD
 from monarch_flight.measured import marker_reduction as reduction
 
@@ -229,7 +229,7 @@ def figure_8(settings):
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.3 * (high - low))  # room for the legend
         axes.legend(fontsize=7, loc="upper right")
-    figure.suptitle(f"{case['name']}, {case['fluid']['solver'].replace('_', ' ')} air")
+    figure.suptitle(f"{case['name']}, {air(case)}")
     return figure
 
 
