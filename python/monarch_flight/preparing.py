@@ -92,7 +92,7 @@ def core_built(name, what):
     build = os.environ.get("MONARCH_VERIFY_BUILD") or root / "build_verify"
     os.makedirs(build, exist_ok=True)
     log = os.path.join(build, "build.log")
-    print(f"{what}: compiling into {build}", flush=True)
+    print(f"{what}: compiling into {build}, minutes the first time; log: {log}", flush=True)
     with open(log, "w", encoding="utf-8") as file:
         for command in (["cmake", "-S", root, "-B", build, "-DMONARCH_ROS=OFF", "-DMONARCH_TESTS=OFF",
                          "-DMONARCH_NATIVE=ON"],

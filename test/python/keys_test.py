@@ -130,6 +130,7 @@ class Command(unittest.TestCase):
     def test_keys_of_other_commands(self):
         for words, fault in (("settle a flap:=1", "did you mean 'flaps'?"), ("sweep jobs:=0", "jobs:=0: must be"),
                              ("figures fig3", "unknown figure 'fig3'"), ("verify image:=x", "did you mean 'images'?"),
+                             ("verify disk_drag", "did you mean 'disc_drag'?"), ("identify passive_pich", "did you mean 'passive_pitch'?"),
                              ("compare-coupling strategies:=plian", "did you mean 'plain'?"),
                              ("render-field /nowhere view:=below", "must be side, above, front, oblique or ahead"),
                              ("bench step", "did you mean 'steps'?"), ("check lint:=include", "true or a folder"),

@@ -13,6 +13,8 @@ monarch verify neighbours
 
 The core is compiled without ROS. The exit code is 0 only if every row is within its bound. What the files hold of
 other names is kept."""
+import re
+
 from monarch_flight import keys, preparing
 from monarch_flight.keys import Key, Table
 from monarch_flight.runs.programs import called
@@ -29,8 +31,17 @@ def add_arguments(parser):
     parser.epilog = KEYS.help()
 
 
+def known(names, source):
+    """Refuses at once what the program would refuse after it has been compiled; its table of subjects tells."""
+    subjects = re.findall(r'^ +\{"(\w+)", ', source.read_text(encoding="utf-8"), re.MULTILINE)
+    faults = [f"{name}: no such subject{keys.nearest(name, subjects)}; known are {', '.join(subjects)}"
+              for name in names if name not in subjects]
+    if faults:
+        raise keys.Refused(*faults)
+
+
 def flow(names, values):
-    preparing.source_only("verify")
+    known([name for name in names if name != "all"], preparing.source_only("verify") / "bench/verify/main.cpp")
     preparing.installed("fly", "verify")
     program = preparing.core_built("verify", "verify")
     out = values.get("out", "verification")

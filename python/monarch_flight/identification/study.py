@@ -10,9 +10,9 @@ import re
 
 import yaml
 
-from monarch_flight import case_files
+from monarch_flight import case_files, places
 from monarch_flight.identification import measured
-from monarch_flight.keys import Refused
+from monarch_flight.keys import Refused, nearest
 
 KEYS = ("name", "case", "set", "unknown", "measured", "compare", "difference", "stages")
 QUIET = dict(record=False, checkpoint_every=0, surface_every=0, flow_every=0, fields_every=0)
@@ -203,7 +203,8 @@ def read(path):
     """The study in a file. Raises Refused with every fault."""
     path = pathlib.Path(path)
     if not path.is_file():
-        raise Refused(f"{path}: neither a study of config/studies nor a file; docs/identification.md has an example")
+        shipped = sorted(one.stem for one in (places.config() / "studies").glob("*.yaml"))
+        raise Refused(f"{path}: neither a study of config/studies nor a file{nearest(path.name, shipped)}; shipped are {', '.join(shipped)}")
     try:
         content = yaml.load(path.read_text(encoding="utf-8"), case_files.CaseLoader)
     except (ValueError, yaml.YAMLError) as error:

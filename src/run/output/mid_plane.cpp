@@ -52,12 +52,12 @@ void MidPlane::memory(StateVisitor& state) {
 std::string MidPlane::remark() const {
   if (depth_ == 0.0) return "";
   std::ostringstream text;
-  text << std::fixed << std::setprecision(1)
-       << "the wings pass through the insect's mid-plane by up to " << 1e3 * depth_ << " mm, in "
-       << 100 * share()
-       << " % of the steps: flat wings meet there, and the flow of each wing is solved alone; "
-       << "loads near that part of the stroke are not to be trusted "
-       << "(docs/validation.md, What is not modelled)";
+  text
+      << std::fixed << std::setprecision(1)
+      << "the wings pass through the insect's mid-plane by up to " << 1e3 * depth_ << " mm, in "
+      << 100 * share()
+      << " % of the steps; the air of each wing is computed alone, so do not trust the loads there "
+      << "(docs/validation.md, What is not modelled)";
   return text.str();
 }
 
