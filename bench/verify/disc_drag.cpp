@@ -35,7 +35,7 @@ struct Drag {
 
 Drag fly(double reynolds, double cells_per_chord, double far_field) {
   const auto flow = makeNavierStokes(Planform::ellipse(1, 1, 0.5, -0.5), airOf(1, 1 / reynolds),
-                                     likePreview(cells_per_chord, far_field));
+                                     scaled("preview", cells_per_chord, far_field));
   auto motion = [](double t) {
     WingMotion m;
     m.r_I = Vector3d(0, 0, t);

@@ -21,17 +21,6 @@ Figures figures(const std::vector<double>& f) {
   return {mean, std::max(std::abs(*low), std::abs(*high))};
 }
 
-/// The `standard` layout at another resolution in every direction.
-GridSettings scaled(double cells_per_chord) {
-  GridSettings s = GridSettings::preset("standard");
-  const double finer = cells_per_chord / s.cells_per_chord;
-  s.level = "custom";
-  s.cells_per_chord = cells_per_chord;
-  s.first_cell /= finer;
-  s.growth_plane = s.growth_normal = 1 + (s.growth_plane - 1) / finer;
-  return s;
-}
-
 /// Rows and curves of one study; h falls from run to run. What the middle run, the one in use, owes
 /// to h is bounded.
 void study(Report& report, const char* what, const double h[3], const FlapSeries* runs[3],
@@ -71,7 +60,7 @@ void study(Report& report, const char* what, const double h[3], const FlapSeries
 void gridStudy(Report& report) {
   const double cells[3] = {20, 28, 40}, h[3] = {1 / 20.0, 1 / 28.0, 1 / 40.0};
   const FlapSeries* runs[3];
-  for (int i = 0; i < 3; ++i) runs[i] = &monarchSeries(scaled(cells[i]), 1000, 1);
+  for (int i = 0; i < 3; ++i) runs[i] = &monarchSeries(scaled("standard", cells[i]), 1000, 1);
   study(report, "grid", h, runs, "20, 28, 40 cells a chord", "standard, 28 cells");
   const char* names[3] = {"20 cells a chord", "28", "40"};
   for (int i = 0; i < 3; ++i) {

@@ -31,7 +31,7 @@ WingMotion motionAt(double t, double psi) {
 Cycle fly(double psi_degrees, double cells_per_chord) {
   const double psi = psi_degrees * M_PI / 180;
   const auto flow = makeNavierStokes(Planform::ellipse(1, kSpan, 0.5, 0), airOf(1, 1 / kReynolds),
-                                     likePreview(cells_per_chord, 12));
+                                     scaled("preview", cells_per_chord, 12));
   const int steps = static_cast<int>(std::lround(12 * cells_per_chord));  // a period
   const double dt = 2 * M_PI / kOmega / steps;
   const auto loads = verify::fly(

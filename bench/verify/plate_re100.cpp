@@ -13,7 +13,7 @@ struct Coefficients {
 };
 
 Coefficients steady(double degrees, double cells_per_chord, double far_field) {
-  const GridSettings s = likePreview(cells_per_chord, far_field);
+  const GridSettings s = scaled("preview", cells_per_chord, far_field);
   const auto flow = makeNavierStokes(Planform::rectangle(1, 2, 0.5, -1), airOf(1, 0.01), s);
   const double angle = degrees * M_PI / 180;
   auto motion = [&](double t) {

@@ -52,9 +52,9 @@ struct Coefficients {
 Coefficients fly(double degrees, double cells_per_chord, const Wing& wing) {
   const double alpha = degrees * M_PI / 180, rate = wing.rate();
   const double chord = 4 * wing.length / (M_PI * wing.span());
-  const auto flow =
-      makeNavierStokes(Planform::ellipse(chord, wing.span(), 0.25, wing.root * wing.length),
-                       airOf(1, 1 / wing.reynolds), likePreview(cells_per_chord, wing.far_field));
+  const auto flow = makeNavierStokes(
+      Planform::ellipse(chord, wing.span(), 0.25, wing.root * wing.length),
+      airOf(1, 1 / wing.reynolds), scaled("preview", cells_per_chord, wing.far_field));
   const double dt = 0.4 / cells_per_chord;
   const int steps = static_cast<int>(std::ceil((M_PI / rate + 0.5 * kRamp) / dt));
   const auto loads = verify::fly(

@@ -22,14 +22,8 @@ struct Sizes {
 /// `standard` with everything scaled to another resolution; the time step, too. The cells beside
 /// the wing are `height` times as high as wide.
 Sizes measure(const Case& c, double cells, double height) {
-  GridSettings s = GridSettings::preset("standard");
-  const double finer = cells / kStandard;
-  s.level = "custom";
-  s.cells_per_chord = cells;
+  GridSettings s = scaled("standard", cells, 6);
   s.first_cell = height / cells;
-  s.growth_plane = s.growth_normal = 1 + (s.growth_plane - 1) / finer;
-  s.far_field = 6;
-  s.courant_limit = kNoCourantLimit;
   const auto flow = makeNavierStokes(c.planform, airOf(1, 0.02), s);
   const int steps = static_cast<int>(std::lround(0.6 * 10 * cells));
   const auto loads = fly(*flow, c.motion, 0.6 / steps, steps);

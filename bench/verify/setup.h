@@ -37,14 +37,20 @@ inline Axis uniformAxis(double low, double high, int n) {
   return Axis::fromFaces(f);
 }
 
-/// The `preview` layout with another number of cells, in every direction; no Courant limit.
-inline GridSettings likePreview(double cells_per_chord, double far_field) {
-  GridSettings s = GridSettings::preset("preview");
+/// The layout of a level at another resolution in every direction.
+inline GridSettings scaled(const char* level, double cells_per_chord) {
+  GridSettings s = GridSettings::preset(level);
   const double finer = cells_per_chord / s.cells_per_chord;
   s.level = "custom";
   s.cells_per_chord = cells_per_chord;
   s.first_cell /= finer;
   s.growth_plane = s.growth_normal = 1 + (s.growth_plane - 1) / finer;
+  return s;
+}
+
+/// The same in a box of another size, without a Courant limit.
+inline GridSettings scaled(const char* level, double cells_per_chord, double far_field) {
+  GridSettings s = scaled(level, cells_per_chord);
   s.far_field = far_field;
   s.courant_limit = kNoCourantLimit;
   return s;

@@ -45,9 +45,10 @@ def correlation_time(residuals):
     return total
 
 
-def confidence(jacobian, residuals, independent=None):
+def confidence(jacobian, residuals, independent):
     """Of N `residuals` r (flown less measured) with derivatives `jacobian` J by the p unknowns, as if r were noise of
-    which n = `independent` are independent, at least p + 1: covariance = |r|^2 / (N (n - p)) (J^T J / N)^-1, for n = N the usual one."""
+    which n = `independent` are independent, at least p + 1: covariance = |r|^2 / (N (n - p)) (J^T J / N)^-1, for n = N the
+    usual one."""
     J, r = np.asarray(jacobian, float), np.asarray(residuals, float)
     N, p = J.shape
     n = max(p + 1.0, float(independent))
