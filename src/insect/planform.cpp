@@ -141,6 +141,20 @@ Planform Planform::scaledTo(double span_wanted, double area_wanted) const {
   return Planform(scaled(leading_), scaled(trailing_), y_root, y_root + span_wanted, breaks);
 }
 
+Planform Planform::sweptBack(double sweep) const {
+  if (!(std::abs(sweep) <= M_PI / 3.0)) {
+    std::ostringstream text;
+    text << "sweep = " << sweep << " rad: must be within +-pi/3; 0 leaves the outline as it is";
+    reject(text.str());
+  }
+  if (sweep == 0.0) return *this;
+  const double slope = std::tan(sweep);
+  const auto swept = [slope](const std::function<double(double)>& edge) {
+    return [edge, slope](double y) { return edge(y) - slope * y; };
+  };
+  return Planform(swept(leading_), swept(trailing_), y_root_, y_tip_, breaks_);
+}
+
 Planform Planform::withoutTip(double share) const {
   if (!(share >= 0.0 && share <= 0.9))
     reject("share of the area that is cut off: must be in [0, 0.9]");

@@ -104,6 +104,23 @@ TEST(Planform, ScalingTakesSpanAndAreaAndScalesMoments) {
                  "moment");
 }
 
+TEST(Planform, SweepMovesEveryChordBack) {
+  const Planform p = monarchPlanform();
+  const double slope = 0.2;
+  const Planform swept = p.sweptBack(std::atan(slope));
+  EXPECT_NEAR(swept.leading(0.03), p.leading(0.03) - slope * 0.03, 1e-15);
+  EXPECT_NEAR(swept.chord(0.03), p.chord(0.03), 1e-15);
+  EXPECT_DOUBLE_EQ(swept.span(), p.span());
+  expectRelative(swept.area(), p.area(), 1e-12, "area");
+  expectRelative(swept.moment(1, 0), p.moment(1, 0) - slope * p.moment(0, 1), 1e-11, "first");
+  expectRelative(swept.moment(2, 0),
+                 p.moment(2, 0) - 2.0 * slope * p.moment(1, 1) + slope * slope * p.moment(0, 2),
+                 1e-11, "second");
+  EXPECT_DOUBLE_EQ(swept.xMin(), swept.sweptBack(0.0).xMin());
+  EXPECT_THROW(p.sweptBack(1.1), std::invalid_argument);
+  EXPECT_THROW(p.sweptBack(std::nan("")), std::invalid_argument);
+}
+
 TEST(Planform, FaultsAreNamed) {
   const auto message = [](const std::function<void()>& build) -> std::string {
     try {

@@ -104,7 +104,7 @@ TEST_F(CaseTest, FilesAndNames) {
             "one of climb, climb_controlled, climb_fwuav, climb_measured, climb_printed, "
             "climb_settled, climb_standard, climb_trimmed, climb_turning, cruise_bumblebee, hinge, "
             "hover_fruit_fly, hover_hawkmoth, measured_motion, passive_pitch, "
-            "passive_pitch_heaving, passive_pitch_identified, plate_re100, tethered_fwuav");
+            "passive_pitch_identified, plate_re100, tethered_fwuav");
   expectHas(faults("/nonexistent/case.yaml"), "/nonexistent/case.yaml does not exist");
   expectHas(faults(write("syntax.yaml", "a: [1\n")), "is not YAML");
   expectHas(faults(write("list.yaml", "[1, 2]\n")), "holds no keys");
@@ -162,6 +162,8 @@ TEST_F(CaseTest, NonPhysicalValues) {
   expectHas(faultsWith("hinge", "  x: false", "  x: true"), "free/x = true: must be false");
   expectHas(faultsWith("plate_re100", "span: 2", "span: 0"), "insect/wing/planform/span = 0 m");
   expectHas(faultsWith("plate_re100", "chord: 1", "chord: .nan"), "insect/wing/planform/chord");
+  expectHas(faultsWith("plate_re100", "span: 2", "span: 2\n    sweep: 1.2"),
+            "insect/wing/planform: sweep = 1.2 rad: must be within +-pi/3");
   expectHas(faultsWith("plate_re100", "dt: 0.02\n  duration: 10", "steps_per_flap: 10\n  flaps: 1"),
             "this motion has no flapping period");
   expectHas(faultsWith("plate_re100", "dt: 0.02", "dt: 0"), "time/dt = 0 s: must be > 0");

@@ -100,6 +100,9 @@ class Flights(unittest.TestCase):
         outline = flown.Outline(planform)
         self.assertAlmostEqual(outline.y_tip - outline.y_root, planform["scale_span"], delta=1e-9)
         self.assertAlmostEqual(outline.area, planform["scale_area"], delta=1e-9)
+        swept = flown.Outline({**planform, "sweep": np.arctan(0.2)})
+        self.assertAlmostEqual(float(swept.leading(0.03) - outline.leading(0.03)), -0.006, delta=1e-12)
+        self.assertAlmostEqual(swept.area, outline.area, delta=1e-12)
 
     def test_wings_that_glide_side_by_side_lift_more(self):
         fly = estimate.Estimate(flown.Flight(self.folder(0.0)), chordwise=4, spanwise=6, steps=20, gap=1e-4)

@@ -134,7 +134,7 @@ class Folding(Folder):
     def test_prescribed_flap_is_the_flown_one(self):
         new = self.settled(made.columns())
         motion = new["motion"]
-        self.assertEqual((new["coupling"]["prescribed_steps"], "initial" in new), (made.STEPS, False))
+        self.assertEqual((new["coupling"]["prescribed_flaps"], "prescribed_steps" in new["coupling"], "initial" in new), (1, False, False))
         np.testing.assert_allclose(motion["body"]["velocity"], [1.2, 0, -0.4], atol=1e-12)
         body, degrees = motion["body"], 180 / math.pi
         for found, series, unit in ((body["sway_x"], made.X, 1), (body["sway_z"], made.Z, 1),

@@ -36,6 +36,10 @@ class Planform {
   /// another.
   Planform scaledTo(double span, double area) const;
 
+  /// Swept back by `sweep` [rad], within +-pi/3: every chord is moved back by y tan(sweep), so
+  /// span, area and chords stay.
+  Planform sweptBack(double sweep) const;
+
   /// Without its tip: cut off along x so far from the root that `share` of the area is lost, in
   /// [0, 0.9].
   Planform withoutTip(double share) const;

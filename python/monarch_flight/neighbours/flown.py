@@ -19,8 +19,14 @@ class Outline:
             self.shape(planform, kind)
         else:
             self.stations(planform, kind)
+        self.sweep(np.tan(planform.get("sweep", 0.0)))
         y = np.linspace(self.y_root, self.y_tip, 2001)
         self.area = float(np.sum((self.leading(y) - self.trailing(y))[:-1])) * (y[1] - y[0])
+
+    def sweep(self, slope):
+        """Moves every chord back by slope times y."""
+        front, back = self.leading, self.trailing
+        self.leading, self.trailing = (lambda y: front(y) - slope * y), (lambda y: back(y) - slope * y)
 
     def shape(self, planform, kind):
         chord, span, hinge = (planform[key] for key in ("chord", "span", "hinge"))

@@ -100,5 +100,6 @@ def prescribe(case, rows):
             motion[name + "_deg"] = in_degrees(through(periodic_series(rows[name]), f, rows[name][0], rows[name + "_dot"][0]))
             changed.append(f"motion/{name}_deg")
     case.pop("initial", None)
-    case["coupling"]["prescribed_steps"] = len(rows["x"]) - 1
+    case["coupling"].pop("prescribed_steps")
+    case["coupling"]["prescribed_flaps"] = 1
     return changed

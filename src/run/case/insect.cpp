@@ -96,12 +96,15 @@ std::optional<Planform> readPlanform(Section section, Faults& faults) {
       section.choice("type", {"rectangle", "ellipse", "csv", "polynomial_csv"});
   std::optional<Planform> planform;
   if (type.empty()) return planform;  // the other keys depend on it
+  const double sweep =
+      section.has("sweep") ? section.number("sweep", {Bound::kAny, "rad", "0: not swept"}) : 0.0;
   try {
     if (type == "csv" || type == "polynomial_csv") {
       planform = readOutline(section, type == "polynomial_csv", faults);
     } else {
       planform = readSimple(section, type == "ellipse");
     }
+    if (planform) planform = planform->sweptBack(sweep);
   } catch (const std::invalid_argument& e) {
     faults.add(section.path() + ": " + e.what());
   }
