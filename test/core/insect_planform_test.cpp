@@ -116,7 +116,9 @@ TEST(Planform, SweepMovesEveryChordBack) {
   expectRelative(swept.moment(2, 0),
                  p.moment(2, 0) - 2.0 * slope * p.moment(1, 1) + slope * slope * p.moment(0, 2),
                  1e-11, "second");
-  EXPECT_DOUBLE_EQ(swept.xMin(), swept.sweptBack(0.0).xMin());
+  const Planform rectangle = Planform::rectangle(1.0, 2.0, 0.25, 0.5).sweptBack(std::atan(slope));
+  EXPECT_NEAR(rectangle.xMax(), 0.25 - slope * 0.5, 1e-12);   // the root's leading edge
+  EXPECT_NEAR(rectangle.xMin(), -0.75 - slope * 2.5, 1e-12);  // the tip's trailing edge
   EXPECT_THROW(p.sweptBack(1.1), std::invalid_argument);
   EXPECT_THROW(p.sweptBack(std::nan("")), std::invalid_argument);
 }

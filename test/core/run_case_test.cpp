@@ -153,7 +153,7 @@ TEST_F(CaseTest, PresetKeysAreOverriddenOneByOne) {
 name: heavy
 insect:
   preset: monarch_paper
-  wing: {mass: 7.25e-5}
+  wing: {mass: 7.25e-5, planform: {sweep: 0.2}}
 fluid: {solver: quasi_steady}
 motion: {type: fourier, series: monarch, frequency: 10.2, psi_deg: 0,
          body: {position: [0, 0, 0], velocity: [1, 0, 0]}}
@@ -163,8 +163,12 @@ time: {steps_per_flap: 500, flaps: 1}
 )");
   const Case c = loadCase(path, {}, CONFIG_DIR);
   const Case nominal = loadCase("climb_printed", {}, CONFIG_DIR);
-  EXPECT_LT((c.insect.wings.right.plate.J - 2.0 * nominal.insect.wings.right.plate.J).norm(),
-            1e-20);
+  const Wing &wing = c.insect.wings.right, &unswept = nominal.insect.wings.right;
+  EXPECT_NEAR(wing.plate.J(0, 0), 2.0 * unswept.plate.J(0, 0),
+              1e-20);  // about the chord's direction
+  EXPECT_NEAR(wing.planform.leading(0.03), unswept.planform.leading(0.03) - 0.03 * std::tan(0.2),
+              1e-15);
+  EXPECT_NE(c.resolved_yaml.find("sweep: 0.2"), std::string::npos);
   EXPECT_EQ(c.insect.m_B, nominal.insect.m_B);
   EXPECT_EQ(c.motion->at(0.01).angles.wings.right.psi.qd, 0.0);
   EXPECT_NE(c.motion->at(0.01).angles.wings.right.phi.qd, 0.0);

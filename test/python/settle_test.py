@@ -136,6 +136,9 @@ class Folding(Folder):
         motion = new["motion"]
         self.assertEqual((new["coupling"]["prescribed_flaps"], "prescribed_steps" in new["coupling"], "initial" in new), (1, False, False))
         np.testing.assert_allclose(motion["body"]["velocity"], [1.2, 0, -0.4], atol=1e-12)
+        timed = made.case() | {"time": dict(t_start=0, dt=1 / (made.F * made.STEPS), duration=6 / made.F)}
+        coupling = self.settled(made.columns(), timed)["coupling"]
+        self.assertEqual((coupling["prescribed_steps"], "prescribed_flaps" in coupling), (made.STEPS, False))
         body, degrees = motion["body"], 180 / math.pi
         for found, series, unit in ((body["sway_x"], made.X, 1), (body["sway_z"], made.Z, 1),
                                     (motion["theta_B_deg"], made.THETA_B, degrees), (motion["theta_R_deg"], made.THETA_R, degrees)):

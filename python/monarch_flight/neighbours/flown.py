@@ -62,10 +62,9 @@ class Outline:
         now = float(np.sum((self.leading(y) - self.trailing(y))[:-1])) * (y[1] - y[0])
         along = span / (self.y_tip - self.y_root) if span != "none" else 1.0
         across = area / (now * along) if area != "none" else 1.0
-        front, back, root = self.leading, self.trailing, self.y_root
-        self.leading = lambda at: across * front(root + (at - root) / along)
-        self.trailing = lambda at: across * back(root + (at - root) / along)
-        self.y_tip = root + along * (self.y_tip - root)
+        front, back = self.leading, self.trailing
+        self.leading, self.trailing = (lambda at: across * front(at / along)), (lambda at: across * back(at / along))
+        self.y_root, self.y_tip = along * self.y_root, along * self.y_tip
 
 
 def turned(axis, angle):

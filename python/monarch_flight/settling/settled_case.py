@@ -102,7 +102,8 @@ def comments_of(means, prescribed, origin, controlled):
         comments["insect/wing/theta_0"] = f"status: as flown, with the mean command folded in ({origin})"
     comments |= {key: f"status: flown, mean of the {origin};\n{settled_motion.HARMONICS} harmonics, value and rate at its start "
                  "exact" for key in prescribed}
-    comments["coupling/prescribed_flaps"] = "The first flap is prescribed: the flight that the release goes on with."
+    for key in ("prescribed_flaps", "prescribed_steps"):
+        comments["coupling/" + key] = "The first flap is prescribed: the flight that the release goes on with."
     comments["guidance/limits"] = "The bounds that the wings' motion had, told as changes of this one."
     if controlled:
         comments["guidance/controller/set_points"] = "Mean velocity over ground: the one that was held."

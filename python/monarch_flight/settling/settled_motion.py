@@ -101,5 +101,8 @@ def prescribe(case, rows):
             changed.append(f"motion/{name}_deg")
     case.pop("initial", None)
     case["coupling"].pop("prescribed_steps")
-    case["coupling"]["prescribed_flaps"] = 1
+    if "steps_per_flap" in case["time"]:  # also with other steps a flap
+        case["coupling"]["prescribed_flaps"] = 1
+    else:
+        case["coupling"]["prescribed_steps"] = len(rows["x"]) - 1
     return changed

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -89,6 +90,18 @@ Cylinder readCylinder(Section& section) {
   return c;
 }
 
+/// Optional; 0 where it is not given.
+double readSweep(Section& section) {
+  if (!section.has("sweep")) {
+    section.take("sweep");
+    return 0.0;
+  }
+  const double sweep = section.number("sweep", {Bound::kAny, "rad", "0: not swept"});
+  if (std::abs(sweep) <= M_PI / 3.0) return sweep;
+  section.fault("sweep", " = " + exactText(sweep) + " rad: must be within +-pi/3; 0: not swept");
+  return 0.0;
+}
+
 }  // namespace
 
 std::optional<Planform> readPlanform(Section section, Faults& faults) {
@@ -96,8 +109,7 @@ std::optional<Planform> readPlanform(Section section, Faults& faults) {
       section.choice("type", {"rectangle", "ellipse", "csv", "polynomial_csv"});
   std::optional<Planform> planform;
   if (type.empty()) return planform;  // the other keys depend on it
-  const double sweep =
-      section.has("sweep") ? section.number("sweep", {Bound::kAny, "rad", "0: not swept"}) : 0.0;
+  const double sweep = readSweep(section);
   try {
     if (type == "csv" || type == "polynomial_csv") {
       planform = readOutline(section, type == "polynomial_csv", faults);
